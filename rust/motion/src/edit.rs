@@ -5,7 +5,7 @@ use crate::{Arc, Cycle, Event, EventKind, FeedMode, Move, MoveKind, Plane, Pose,
 /// Heights of a level are compared with this slack, mm.
 const SAME_HEIGHT: f64 = 1e-6;
 
-/// A way down along the axis may miss it by so much, mm: the texts' coordinates are rounded.
+/// A plunge along the axis may miss it by so much, mm: the coordinates of texts are rounded.
 const SAME_PLAN: f64 = 0.05;
 /// A tool that leans by more is not drawn up along its axis: its rise, the cosine of 85 deg.
 const LEAST_RISE: f64 = 0.087;

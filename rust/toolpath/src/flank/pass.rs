@@ -7,6 +7,9 @@ use styluscam_motion::{Move, Role, UnitAxis};
 
 use super::FlankError;
 
+/// An axis that rises less for each mm, the cosine of 85 deg, leads nowhere up.
+const LEAST_RISE: f64 = 0.087;
+
 /// A tool beside a strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlankPose {
@@ -79,9 +82,18 @@ fn beyond(end: &FlankPose, inner: &FlankPose, ways: &FlankWays) -> Vec<Vector> {
     // along the surface: across the axis and across the way to it
     let out = across(across(contact - inner.contact, axis), free).normalize();
     let extended = tip + out * ways.extension;
-    let aside = extended + (out + free) * (ways.lead * FRAC_1_SQRT_2);
+    let aside = extended + not_down((out + free) * (ways.lead * FRAC_1_SQRT_2), axis);
     let extension = (ways.extension > 0.0).then_some(extended);
     extension.into_iter().chain((ways.lead > 0.0).then_some(aside)).collect()
+}
+
+/// A way across a tool's axis, level instead of down: along its axis it goes up for that. A floor may lie there.
+fn not_down(way: Vector, axis: Vector) -> Vector {
+    if way.z < 0.0 && axis.z > LEAST_RISE {
+        way - axis * (way.z / axis.z)
+    } else {
+        way
+    }
 }
 
 #[cfg(test)]
@@ -117,5 +129,17 @@ mod tests {
             assert!(apart.norm() < 1e-12 && (step.feed - feed).abs() < 1e-12, "{step:?}");
             assert_eq!(step.kind == MoveKind::Rapid, feed == 0.0);
         }
+    }
+
+    #[test]
+    fn a_tool_that_leans_away_from_the_wall_does_not_go_down_on_its_way_to_it() {
+        let axis = Vector::new(0.0, 0.3, 1.0).normalize();
+        let poses = [pose(0.0, axis), pose(10.0, axis)];
+        let moves = flank_pass(&poses, &WAYS, &|_| 30.0).unwrap();
+        let lowest = moves.iter().map(|step| step.end.tip[2]).fold(f64::INFINITY, f64::min);
+        assert!(lowest > -1e-9, "{lowest}");
+        // and is as far from the wall as it was to be
+        let aside = Vector::from(moves[1].end.tip) - poses[0].tip;
+        assert!((aside - axis * aside.dot(&axis)).norm() > 4.0, "{aside:?}");
     }
 }
