@@ -22,7 +22,7 @@ pub enum Rails {
 #[serde(deny_unknown_fields)]
 pub struct CurveKeys {
     /// Poles, mm.
-    #[schemars(length(min = 2))]
+    #[schemars(length(min = 2), extend("x-unit" = "mm", "minimum" = -100000.0, "maximum" = 100000.0))]
     pub poles: Vec<[f64; 3]>,
     /// Degree; one less than there are poles when left out: a Bezier curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -30,9 +30,11 @@ pub struct CurveKeys {
     pub degree: Option<usize>,
     /// Knots, as often as they count; evenly spaced between the ends when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "minimum" = -1000000.0, "maximum" = 1000000.0))]
     pub knots: Option<Vec<f64>>,
     /// A weight for each pole; 1 when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1000000.0))]
     pub weights: Option<Vec<f64>>,
 }
 
