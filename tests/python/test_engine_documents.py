@@ -152,7 +152,13 @@ def test_posted_text_reads_back_as_the_same_moves(machine: str, plan: sc.Plan) -
     assert (read.moves["kind"][-count:] == wanted.moves["kind"]).all()
     assert np.abs(read.positions[-count:] - wanted.positions).max() <= 0.5 * shipped.resolution_mm + 1e-12
     cuts = wanted.moves["kind"] == FEED
-    assert (read.moves["feed"][-count:][cuts] == wanted.moves["feed"][cuts]).all()
+    feeds, stated = read.moves["feed"][-count:][cuts], wanted.moves["feed"][cuts]
+    if shipped.document["feed"]["mode"] == "inverse-time":
+        # a time is rounded, and with it the feed: the last digit of the coordinates of a short move
+        lengths = np.linalg.norm(np.diff(wanted.positions, axis=0, prepend=wanted.positions[:1]), axis=1)[cuts]
+        assert (np.abs(feeds - stated) <= stated * (1e-4 + 4.0 * shipped.resolution_mm / lengths)).all()
+    else:
+        assert (feeds == stated).all()
     lines = read.moves["line"].astype(int)
     assert lines[0] > 0
     assert (np.diff(lines) > 0).all()
