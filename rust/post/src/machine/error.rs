@@ -114,7 +114,7 @@ impl MachineError {
     pub fn hint(&self) -> String {
         let advice = match self {
             Self::UnknownMachine { .. } => {
-                format!("shipped machines: {}; anything else is the path of a machine file", shipped().join(", "))
+                format!("shipped: {}; else a machine file", shipped().join(", "))
             }
             Self::Document { .. } => "correct this key or line of the machine file".into(),
             Self::Schema { .. } => "update StylusCAM, or write the file for this release".into(),
