@@ -7,6 +7,8 @@
 use rayon::prelude::*;
 use styluscam_geometry::{Cutter, Vector};
 
+use crate::sections::least_between;
+
 /// Places along the whole movement, at least, among which the nearest is looked for; every position is one of them.
 const LOOKED_AT: usize = 512;
 /// Parts of the golden section around it: to 1e-7 of the interval.
@@ -15,7 +17,6 @@ const STEPS: usize = 34;
 const NEWTON: usize = 60;
 /// The same for the tool's clearance, whose distance takes longer to find.
 const NEAR: usize = 128;
-const RATIO: f64 = 0.618_033_988_749_894_9;
 
 /// The side of a tool: its radius across the axis at the first point of each axis, mm, and how much that grows for each mm from
 /// there to the second, 0 for a cylinder.
@@ -79,18 +80,8 @@ fn least(axes: &[[Vector; 2]], each: usize, function: &dyn Fn([Vector; 2]) -> f6
     let parts = each * last;
     let at = |part: usize| part as f64 / each as f64;
     let (nearest, least) = (0..=parts).map(|part| (part, height(at(part)))).min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let (mut low, mut high) = (at(nearest.saturating_sub(1)), at((nearest + 1).min(parts)));
-    let mut found = least;
-    for _ in 0..STEPS {
-        let [p, q] = [high - RATIO * (high - low), low + RATIO * (high - low)];
-        let [at_p, at_q] = [height(p), height(q)];
-        found = found.min(at_p).min(at_q);
-        if at_p < at_q {
-            high = q;
-        } else {
-            low = p;
-        }
-    }
+    let about = [at(nearest.saturating_sub(1)), at((nearest + 1).min(parts))];
+    let (found, _) = least_between((least, at(nearest)), about, STEPS, height);
     Some((nearest, found))
 }
 

@@ -43,8 +43,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let leaning = leaning::judged(program, &assignment, subject, limits, watch)?;
     faults.extend(leaning.faults);
     tally.samples += leaning.samples;
-    leaning.gouge.into_iter().for_each(|(depth, at)| tally.gouge.take(depth, at));
-    leaning.excess.into_iter().for_each(|(left, at)| tally.excess.take(left, at));
+    tally.gouge.join(leaning.gouge);
+    tally.excess.join(leaning.excess);
     let pair = pair::judged(program, &segments, subject, limits, watch)?;
     faults.extend(pair.faults);
     let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;

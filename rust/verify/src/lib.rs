@@ -71,6 +71,7 @@ mod rows;
 mod samples;
 mod scalar;
 mod scallop;
+mod sections;
 mod segments;
 mod sequence;
 mod settings;

@@ -20,6 +20,11 @@ pub(crate) struct Worst {
 }
 
 impl Worst {
+    /// Of this and what follows.
+    pub fn join(&mut self, next: Self) {
+        next.at.into_iter().for_each(|place| self.take(next.value, place));
+    }
+
     pub fn take(&mut self, value: f64, place: Place) {
         if value > 0.0 && (self.at.is_none() || value > self.value + SLACK) {
             *self = Self { value, at: Some(place) };
@@ -71,9 +76,8 @@ impl Tally {
     /// Of these moves and those that follow.
     pub fn join(&mut self, next: Self) {
         self.faults.extend(next.faults);
-        for (worst, other) in [(&mut self.gouge, next.gouge), (&mut self.excess, next.excess)] {
-            other.at.into_iter().for_each(|place| worst.take(other.value, place));
-        }
+        self.gouge.join(next.gouge);
+        self.excess.join(next.excess);
         self.samples += next.samples;
         self.contacts += next.contacts;
         self.touching += next.touching;

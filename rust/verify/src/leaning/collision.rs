@@ -16,6 +16,7 @@ use crate::expectation::FlankFace;
 use crate::faults::{self, Fault, FaultKind};
 use crate::measure::gouge_level;
 use crate::place::Place;
+use crate::sections::least_between;
 use crate::subject::{Limits, Subject};
 use crate::tolerances::SLACK;
 
@@ -31,7 +32,6 @@ const AT_SURFACE: f64 = 2e-3;
 const LEVEL: f64 = 1e-5;
 /// Parts of the golden section between positions: to 1e-4 of their distance.
 const SECTIONS: usize = 18;
-const RATIO: f64 = 0.618_033_988_749_894_9;
 
 /// A body of the tool, and what it is when it enters the part.
 struct Solid {
@@ -138,9 +138,7 @@ impl Struck<'_> {
             return;
         }
         judged.faults.push(fault.measured(depth, limits.gouge));
-        if judged.gouge.is_none_or(|(known, _)| depth > known) {
-            judged.gouge = Some((depth, at));
-        }
+        judged.gouge.take(depth, at);
     }
 }
 
@@ -276,7 +274,7 @@ impl Search<'_> {
             // what is far in is deep enough to be reported
             if is_lowest && (values[i] - self.target.limit).abs() < self.target.near {
                 let [low, high] = [i.saturating_sub(1).max(first), (i + 1).min(count)].map(|i| i as f64);
-                return about((values[i], i as f64), [low, high], &value);
+                return least_between((values[i], i as f64), [low, high], SECTIONS, value);
             }
             (values[i], i as f64)
         });
@@ -318,19 +316,4 @@ impl Search<'_> {
         let found = bvh.maximise(nothing, bound, visit);
         (found > nothing).then_some(-found)
     }
-}
-
-/// The least of a function about where it is known, by golden sections between two places.
-fn about(mut found: (f64, f64), [mut low, mut high]: [f64; 2], value: &dyn Fn(f64) -> f64) -> (f64, f64) {
-    for _ in 0..SECTIONS {
-        let [p, q] = [high - RATIO * (high - low), low + RATIO * (high - low)];
-        let [at_p, at_q] = [value(p), value(q)];
-        found = [(at_p, p), (at_q, q)].into_iter().fold(found, |a, b| if b.0 < a.0 { b } else { a });
-        if at_p < at_q {
-            high = q;
-        } else {
-            low = p;
-        }
-    }
-    found
 }

@@ -2,7 +2,7 @@
 
 use super::report::OperationFlank;
 use crate::faults::Fault;
-use crate::place::Place;
+use crate::tally::Worst;
 
 /// What is found of a program's leaning tools.
 #[derive(Default)]
@@ -11,8 +11,8 @@ pub(crate) struct Judged {
     pub flanks: Vec<OperationFlank>,
     /// Positions at which the clearance was measured, and points of surfaces.
     pub samples: usize,
-    /// Deepest entry into the part, mm, and where.
-    pub gouge: Option<(f64, Place)>,
-    /// Most that is left of a surface that is milled, mm, and where.
-    pub excess: Option<(f64, Place)>,
+    /// Deepest entry into the part, mm.
+    pub gouge: Worst,
+    /// Most that is left of a surface that is milled, mm.
+    pub excess: Worst,
 }

@@ -11,6 +11,8 @@ mod surface;
 mod swept;
 mod turning;
 
+use std::borrow::Cow;
+
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
@@ -56,8 +58,11 @@ fn height(subject: &Subject) -> f64 {
 }
 
 /// The moves of leaning tools among those of upright ones, for what is checked of all alike: feeds, spindle, coolant.
-pub(crate) fn with_leaning(segments: &[Segment], leaning: &[LeaningMove]) -> Vec<Segment> {
+pub(crate) fn with_leaning<'a>(segments: &'a [Segment], leaning: &[LeaningMove]) -> Cow<'a, [Segment]> {
+    if leaning.is_empty() {
+        return Cow::Borrowed(segments);
+    }
     let mut all: Vec<Segment> = segments.iter().copied().chain(leaning.iter().map(LeaningMove::segment)).collect();
     all.sort_by_key(|segment| segment.index);
-    all
+    Cow::Owned(all)
 }

@@ -12,13 +12,13 @@ use crate::body::Body;
 use crate::expectation::{FlankFace, FlankPasses};
 use crate::faults::{self, Fault};
 use crate::place::Place;
+use crate::sections::least_between;
 use crate::tolerances::SLACK;
 
 /// Positions of the whole movement, at least, among which the lowest is looked for; every end of a move is one of them.
 const LOOKED_AT: usize = 256;
 /// Parts of the golden section around it: to 1e-5 of the interval.
 const SECTIONS: usize = 24;
-const RATIO: f64 = 0.618_033_988_749_894_9;
 /// Steps to the tool along a normal; five are usual.
 const STEPS: usize = 40;
 /// A tool that comes so near to the end of a normal, mm, cuts there: rims end on rails, and coordinates are rounded.
@@ -116,9 +116,7 @@ fn of_face(
         judged.faults.push(Fault::new(&faults::FLANK_MISSES, index, line, at).measured(share, 0.0));
     }
     for (worst, value, at) in [(&mut judged.gouge, over, over_at), (&mut judged.excess, under, under_at)] {
-        if let Some((_, at)) = at.filter(|_| worst.is_none_or(|(known, _)| value > known)) {
-            *worst = Some((value, at));
-        }
+        at.into_iter().for_each(|(_, at)| worst.take(value, at));
     }
     FlankFaceError {
         name: face.name.clone(),
@@ -184,28 +182,17 @@ impl Feed<'_> {
     /// The lowest about there.
     fn lowest_about(
         &self,
-        mut best: (f64, f64),
+        known: (f64, f64),
         (point, normal): (Vector, Vector),
         parts: usize,
         body: &Body,
     ) -> (f64, f64) {
-        if !best.0.is_finite() {
-            return best;
+        if !known.0.is_finite() {
+            return known;
         }
-        let height = |share: f64| over(point, normal, &self.at(share), body);
         let wide = 1.0 / parts as f64;
-        let (mut low, mut high) = ((best.1 - wide).max(0.0), (best.1 + wide).min(1.0));
-        for _ in 0..SECTIONS {
-            let [p, q] = [high - RATIO * (high - low), low + RATIO * (high - low)];
-            let [at_p, at_q] = [height(p), height(q)];
-            best = [(at_p, p), (at_q, q)].into_iter().fold(best, |a, b| if b.0 < a.0 { b } else { a });
-            if at_p < at_q {
-                high = q;
-            } else {
-                low = p;
-            }
-        }
-        best
+        let about = [(known.1 - wide).max(0.0), (known.1 + wide).min(1.0)];
+        least_between(known, about, SECTIONS, |share| over(point, normal, &self.at(share), body))
     }
 }
 
