@@ -1,7 +1,5 @@
 //! The whole way of a tool along a strip: down to it, in from the free side, along it, out, and up again.
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 use styluscam_geometry::Vector;
 use styluscam_motion::{Move, Role, UnitAxis};
 
@@ -82,12 +80,12 @@ fn beyond(end: &FlankPose, inner: &FlankPose, ways: &FlankWays) -> Vec<Vector> {
     // along the surface: across the axis and across the way to it
     let out = across(across(contact - inner.contact, axis), free).normalize();
     let extended = tip + out * ways.extension;
-    let aside = extended + not_down((out + free) * (ways.lead * FRAC_1_SQRT_2), axis);
+    let aside = extended + not_down(out + free, axis).normalize() * ways.lead;
     let extension = (ways.extension > 0.0).then_some(extended);
     extension.into_iter().chain((ways.lead > 0.0).then_some(aside)).collect()
 }
 
-/// A way across a tool's axis, level instead of down: along its axis it goes up for that. A floor may lie there.
+/// The direction of a way across a tool's axis, level instead of down: along its axis it goes up for that. A floor may lie there.
 fn not_down(way: Vector, axis: Vector) -> Vector {
     if way.z < 0.0 && axis.z > LEAST_RISE {
         way - axis * (way.z / axis.z)
@@ -140,6 +138,8 @@ mod tests {
         assert!(lowest > -1e-9, "{lowest}");
         // and is as far from the wall as it was to be
         let aside = Vector::from(moves[1].end.tip) - poses[0].tip;
+        let way = aside - (Vector::from(moves[2].end.tip) - poses[0].tip);
+        assert!((way.norm() - WAYS.lead).abs() < 1e-12, "{way:?}");
         assert!((aside - axis * aside.dot(&axis)).norm() > 4.0, "{aside:?}");
     }
 }
