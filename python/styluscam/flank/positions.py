@@ -163,7 +163,7 @@ def flank_positions(
         beside, contacts = strip.positions_within(flank.radius, flank.half_angle, float(tolerance), method)
     along = beside[:, 1] - beside[:, 0]
     lengths = np.linalg.norm(along, axis=1)
-    needed = flank.needed(float(lengths.max()))
+    needed = cutter._engine.flank_needed(float(lengths.max()))
     if needed > flank.top:
         raise ToolError(
             f"tool: {cutter.description} reaches {flank.top:.3f} mm up from its tip, the rulings {needed:.3f} mm",

@@ -38,8 +38,3 @@ class Flank:
     def rise(self) -> float:
         """Height over the tip at which the normals of its lower end meet the axis."""
         return self.height + self.radius * self.growth
-
-    def needed(self, axis: float) -> float:
-        """Height over the tip at which it touches the second rail, where the axis between both rails' normals is so long."""
-        cosine = math.cos(self.half_angle)
-        return self.rise + axis - (self.radius / cosine + axis * math.sin(self.half_angle)) * math.sin(self.half_angle)

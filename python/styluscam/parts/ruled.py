@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import lru_cache
+
 import numpy as np
 
 from styluscam.errors import GeometryError
@@ -96,15 +99,22 @@ def _of_revolution(surface: Cylinder | Cone, points: Floats) -> Rails | None:
     sweep = 2.0 * np.pi if is_closed else 2.0 * np.pi - gaps[widest]
     growth = np.tan(surface.semi_angle) if isinstance(surface, Cone) else 0.0
 
-    def arc(height: float) -> Rail:
-        def at(shares: Floats) -> Floats:
-            angle = (start + sweep * shares)[:, None]
-            around = np.cos(angle) * first + np.sin(angle) * second
-            return np.asarray(location + height * axis + abs(surface.radius + growth * height) * around)
+    unit_arc = _unit_arc(float(sweep))
+    turned = np.array([np.cos(start) * first + np.sin(start) * second, np.cos(start) * second - np.sin(start) * first])
 
-        return Rail.of(at, "arc")
+    def arc(height: float) -> Rail:
+        poles = location + height * axis + abs(surface.radius + growth * height) * (unit_arc.poles[:, :2] @ turned)
+        return replace(unit_arc, poles=poles)
 
     return arc(float(heights.min())), arc(float(heights.max()))
+
+
+@lru_cache(maxsize=64)
+def _unit_arc(sweep: float) -> Rail:
+    """About +Z from +X on, rad."""
+    return Rail.of(
+        lambda shares: np.stack([np.cos(sweep * shares), np.sin(sweep * shares), 0.0 * shares], axis=1), "arc"
+    )
 
 
 def _area(rails: Rails) -> float:

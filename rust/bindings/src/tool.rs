@@ -22,6 +22,12 @@ pub struct Tool {
     pub(crate) cutter: styluscam_geometry::Cutter,
 }
 
+impl Tool {
+    fn side(&self) -> PyResult<ToolFlank> {
+        self.tool.flank().map_err(|error| errors::raise("ToolError", &error.to_string(), "tapered-flank", "tool", ""))
+    }
+}
+
 #[pymethods]
 impl Tool {
     /// From a tool document as JSON.
@@ -54,11 +60,13 @@ impl Tool {
 
     /// Radius (mm), half angle (rad), height of the lower end and of the upper one over the tip (mm) of the side with which it mills.
     fn flank(&self) -> PyResult<(f64, f64, f64, f64)> {
-        let ToolFlank { radius, half_angle, height, top } = self
-            .tool
-            .flank()
-            .map_err(|error| errors::raise("ToolError", &error.to_string(), "tapered-flank", "tool", ""))?;
+        let ToolFlank { radius, half_angle, height, top } = self.side()?;
         Ok((radius, half_angle, height, top))
+    }
+
+    /// Height over the tip at which that side touches a second rail, mm, where the axis between both rails' normals is so long, mm.
+    fn flank_needed(&self, axis: f64) -> PyResult<f64> {
+        Ok(self.side()?.needed(axis))
     }
 
     #[getter]

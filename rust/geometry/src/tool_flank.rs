@@ -34,6 +34,15 @@ impl ToolFlank {
     pub fn rise(&self) -> f64 {
         self.height + self.radius * self.growth()
     }
+
+    /// Height over the tip, mm, at which it touches the second of two rails, where it touches the first at its lower end and the axis
+    /// between the normals of both is so long, mm.
+    #[must_use]
+    pub fn needed(&self, axis: f64) -> f64 {
+        let (sine, cosine) = libm::sincos(self.half_angle);
+        // of a cone that normal meets the axis higher up than where it is touched
+        self.rise() + axis - (self.radius / cosine + axis * sine) * sine
+    }
 }
 
 impl Tool {

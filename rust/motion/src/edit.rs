@@ -1,19 +1,17 @@
 //! What shops do with a finished program: go on from the middle, run it in the air, stop between operations.
 
-use crate::{Arc, Cycle, Event, EventKind, FeedMode, Move, MoveKind, Plane, Pose, Program};
+use crate::{Arc, Cycle, Event, EventKind, FeedMode, Move, MoveKind, Plane, Pose, Program, UnitAxis};
 
 /// Heights of a level are compared with this slack, mm.
 const SAME_HEIGHT: f64 = 1e-6;
 
 /// A plunge along the axis may miss it by so much, mm: the coordinates of texts are rounded.
 const SAME_PLAN: f64 = 0.05;
-/// A tool that leans by more is not drawn up along its axis: its rise, the cosine of 85 deg.
-const LEAST_RISE: f64 = 0.087;
 
 /// The tip up along the tool's axis at a height, mm; straight up where the tool lies.
 fn above(pose: &Pose, height: f64) -> [f64; 3] {
     let ([x, y, z], [across, aside, rise]) = (pose.tip, pose.axis.vector());
-    if rise < LEAST_RISE || height <= z {
+    if rise < UnitAxis::LEAST_RISE || height <= z {
         return [x, y, height];
     }
     let length = (height - z) / rise;

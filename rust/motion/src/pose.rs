@@ -19,6 +19,9 @@ pub struct UnitAxis([f64; 3]);
 pub struct NotUnit(pub [f64; 3]);
 
 impl UnitAxis {
+    /// Of an axis whose Z is less there is no use in going up along it: it leans by more than 85 deg.
+    pub const LEAST_RISE: f64 = 0.087;
+
     /// +Z: the tool stands upright.
     pub const UP: Self = Self([0.0, 0.0, 1.0]);
 

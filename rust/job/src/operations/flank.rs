@@ -113,10 +113,7 @@ impl Flank {
     fn lifts(&self, tool: &ToolFlank, stands: &[Stand], path: &str) -> Result<Vec<f64>, JobError> {
         let axis = |stand: &Stand| (stand.axis[1] - stand.axis[0]).norm();
         let longest = stands.iter().map(axis).fold(0.0, f64::max);
-        // of a cone the second point of the axis lies higher up than where the flank touches
-        let sine = libm::sin(tool.half_angle);
-        let wide = tool.radius / libm::cos(tool.half_angle) + longest * sine;
-        let needed = self.overreach + tool.radius * tool.growth() + longest - wide * sine;
+        let needed = self.overreach + tool.needed(longest) - tool.height;
         let available = tool.top - tool.height;
         if available < LEAST_FLANK {
             let message = format!(

@@ -5,9 +5,6 @@ use styluscam_motion::{Move, Role, UnitAxis};
 
 use super::FlankError;
 
-/// An axis that rises less for each mm, the cosine of 85 deg, leads nowhere up.
-const LEAST_RISE: f64 = 0.087;
-
 /// A tool beside a strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlankPose {
@@ -87,7 +84,7 @@ fn beyond(end: &FlankPose, inner: &FlankPose, ways: &FlankWays) -> Vec<Vector> {
 
 /// The direction of a way across a tool's axis, level instead of down: along its axis it goes up for that. A floor may lie there.
 fn not_down(way: Vector, axis: Vector) -> Vector {
-    if way.z < 0.0 && axis.z > LEAST_RISE {
+    if way.z < 0.0 && axis.z > UnitAxis::LEAST_RISE {
         way - axis * (way.z / axis.z)
     } else {
         way
