@@ -6,8 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from . import documents, engine, motion_track, ops, properties, tools, verification
-from .fields import OPERATION, kind_field
+from . import documents, engine, motion_track, ops, tools, verification
 from .long_work import Run
 
 if TYPE_CHECKING:
@@ -37,9 +36,7 @@ class Engaged:
 
 def is_pocket(obj: Any) -> bool:
     """Whether an operation of ours has an engagement that is bounded."""
-    if not (ops.is_ours(obj) and engine.is_there() and properties.are_complete(obj)):
-        return False
-    return bool(getattr(obj, kind_field(properties.fields(), OPERATION).name) == POCKET)
+    return ops.is_of_kind(obj, POCKET)
 
 
 def is_computed(obj: Any) -> bool:

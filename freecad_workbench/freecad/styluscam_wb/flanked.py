@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import documents, engine, ops, properties, verification
-from .fields import OPERATION, kind_field
+from . import documents, ops, verification
 from .long_work import Run
 
 if TYPE_CHECKING:
@@ -19,6 +18,8 @@ if TYPE_CHECKING:
 
 FLANK = "flank"
 """The kind of operation whose tool leans."""
+
+PLURAL = "operations with a leaning tool"
 
 WORDS = re.compile(r"([XYZIJK])(-?[\d.]+)")
 
@@ -50,9 +51,7 @@ class Flanked:
 
 def is_flank(obj: Any) -> bool:
     """Whether an operation of ours mills with the side of a leaning tool."""
-    if not (ops.is_ours(obj) and engine.is_there() and properties.are_complete(obj)):
-        return False
-    return bool(getattr(obj, kind_field(properties.fields(), OPERATION).name) == FLANK)
+    return ops.is_of_kind(obj, FLANK)
 
 
 def poses_of(obj: Any) -> Poses:
@@ -61,9 +60,7 @@ def poses_of(obj: Any) -> Poses:
     Raises:
         NoFlankError: it has none.
     """
-    if not is_flank(obj):
-        raise NoFlankError(f"{obj.Label} is not milled with the side of a leaning tool: select an operation that is")
-    verification.refuse_uncomputed(obj)
+    _refuse_others(obj)
     lines = [line for line in obj.Path.toGCode().splitlines() if line.startswith("G1 ")]
     found = [dict(WORDS.findall(line)) for line in lines]
     tips = np.array([[float(words[axis]) for axis in "XYZ"] for words in found]).reshape(-1, 3)
@@ -75,6 +72,12 @@ def poses_of(obj: Any) -> Poses:
     return Poses(tips, axes.reshape(-1, 3))
 
 
+def _refuse_others(obj: Any) -> None:
+    if not is_flank(obj):
+        raise NoFlankError(f"{obj.Label} is not milled with the side of a leaning tool: select an operation that is")
+    verification.refuse_uncomputed(obj)
+
+
 def flanked_of(job: Any, obj: Any, run: Run) -> Flanked:
     """What an operation leaves of its surfaces, from its posted text; `run` runs what takes long.
 
@@ -82,9 +85,7 @@ def flanked_of(job: Any, obj: Any, run: Run) -> Flanked:
         NoFlankError: the operation is of another kind.
         PostError, MotionError, ToolError, styluscam.StylusError: it is not computed, or cannot be posted.
     """
-    if not is_flank(obj):
-        raise NoFlankError(f"{obj.Label} is not milled with the side of a leaning tool: select an operation that is")
-    verification.refuse_uncomputed(obj)
+    _refuse_others(obj)
     draft = verification.draft_of(job, [obj], documents.machine_of(job))
     report = draft.report(draft.text_to_verify(), run)
     surfaces = [surface for one in report.flanks for surface in one.faces]

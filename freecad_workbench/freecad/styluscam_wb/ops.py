@@ -318,3 +318,8 @@ def Create(name: str = setup_sheet.NAME, obj: Any = None, parentJob: Any = None)
 def is_ours(obj: Any) -> bool:
     """Whether a document object is an operation of ours, computed or not."""
     return isinstance(getattr(obj, "Proxy", None), ObjectStylus)
+
+
+def is_of_kind(obj: Any, kind: str) -> bool:
+    """Whether a document object is an operation of ours of a kind, with all of its properties."""
+    return is_ours(obj) and properties.kind_of(obj) == kind and properties.are_complete(obj)

@@ -115,6 +115,11 @@ def is_word_shown(obj: Any, choice: Choice) -> bool:
     return takes_sheet(obj) or not choice.stated.get(TAKES_SHEET)
 
 
+def kind_of(obj: Any) -> str:
+    """The operation's kind; none while it has no properties, or there is no engine."""
+    return str(getattr(obj, kind_field(fields(), OPERATION).name, "")) if engine.is_there() else ""
+
+
 def are_complete(obj: Any) -> bool:
     """Whether the operation has all of the engine's properties yet."""
     return all(hasattr(obj, field.name) for field in fields())

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import FreeCADGui
 import numpy as np
 
-from .. import flanked, ops
-from ..flanked import NoFlankError, Poses
-from . import legend, pictures, scene
+from .. import flanked
+from ..flanked import Poses
+from . import chosen, legend, pictures, scene
 from .command import Command
 from .messages import translated
 from .picture_command import PictureCommand
@@ -58,20 +57,6 @@ def _card(obj: Any, poses: Poses, length: float) -> legend.Card:
     return card
 
 
-def chosen(job: Any) -> Any:
-    """The selected operation, or the job's only one whose tool leans.
-
-    Raises:
-        NoFlankError: it is not clear which.
-    """
-    selected = [obj for obj in FreeCADGui.Selection.getSelection() if ops.is_ours(obj)]
-    found = selected or [obj for obj in job.Operations.Group if flanked.is_flank(obj)]
-    if len(found) != 1:
-        count = len(found) or "no"
-        raise NoFlankError(f"{job.Label}: {count} operations with a leaning tool are in question: select one")
-    return found[0]
-
-
 class ShowAxes(PictureCommand):
     """Draws the axes of an operation of the job in front; takes them away where they are shown."""
 
@@ -83,7 +68,7 @@ class ShowAxes(PictureCommand):
 
     def draw(self, job: Any) -> None:
         """Draws."""
-        draw(job, chosen(job))
+        draw(job, chosen.operation(flanked.is_flank, flanked.PLURAL))
 
 
 class AxesPreview(Shown):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import FreeCADGui
@@ -29,17 +30,17 @@ def job() -> Any:
     return found
 
 
-def operation() -> Any:
-    """The selected operation of ours, or the job's only one.
+def operation(applies: Callable[[Any], bool] = ops.is_ours, plural: str = "operations of StylusCAM") -> Any:
+    """The selected operation of ours, or the job's only one that applies; `plural` names those.
 
     Raises:
         ChoiceError: there is none, or it is not clear which.
     """
     selected = [obj for obj in FreeCADGui.Selection.getSelection() if ops.is_ours(obj)]
-    ours = selected or [obj for obj in job().Operations.Group if ops.is_ours(obj)]
-    if len(ours) != 1:
-        raise ChoiceError(f"{len(ours) or 'no'} operations of StylusCAM are in question: select one")
-    return ours[0]
+    found = selected or [obj for obj in job().Operations.Group if applies(obj)]
+    if len(found) != 1:
+        raise ChoiceError(f"{len(found) or 'no'} {plural} are in question: select one")
+    return found[0]
 
 
 def is_job_free() -> bool:

@@ -5,13 +5,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import FreeCADGui
 import numpy as np
 
-from .. import engaged, ops
-from ..engaged import Engaged, NoEngagementError
+from .. import engaged
+from ..engaged import Engaged
 from ..long_work import long_work
-from . import heat_colours, legend, path_colours, pictures, scene
+from . import chosen, heat_colours, legend, path_colours, pictures, scene
 from .command import Command
 from .heat_colours import short
 from .messages import translated
@@ -92,20 +91,6 @@ def draw(job: Any, obj: Any) -> None:
     show(job, obj, shown)
 
 
-def _chosen(job: Any) -> Any:
-    """The selected operation, or the job's only pocket.
-
-    Raises:
-        NoEngagementError: it is not clear which.
-    """
-    selected = [obj for obj in FreeCADGui.Selection.getSelection() if ops.is_ours(obj)]
-    found = selected or [obj for obj in job.Operations.Group if engaged.is_pocket(obj)]
-    if len(found) != 1:
-        count = len(found) or "no"
-        raise NoEngagementError(f"{job.Label}: {count} pockets are in question, and a map is of one: select one")
-    return found[0]
-
-
 class ShowEngagement(PictureCommand):
     """Draws the map of a pocket of the job in front; takes it away where it is shown."""
 
@@ -117,7 +102,7 @@ class ShowEngagement(PictureCommand):
 
     def draw(self, job: Any) -> None:
         """Measures, then draws."""
-        draw(job, _chosen(job))
+        draw(job, chosen.operation(engaged.is_pocket, "pockets"))
 
 
 class EngagementPreview(Shown):

@@ -10,7 +10,7 @@ import numpy as np
 from .. import flanked
 from ..flanked import Flanked
 from ..long_work import long_work
-from . import axes_view, legend, pictures, scene
+from . import chosen, legend, pictures, scene
 from .command import Command
 from .heat_colours import short
 from .messages import translated
@@ -122,7 +122,7 @@ class ShowFlank(PictureCommand):
 
     def draw(self, job: Any) -> None:
         """Verifies, then draws."""
-        draw(job, axes_view.chosen(job))
+        draw(job, chosen.operation(flanked.is_flank, flanked.PLURAL))
 
 
 class FlankPreview(Shown):

@@ -11,7 +11,6 @@ import FreeCADGui
 import Path.Op.Gui.Base as PathOpGui
 
 from .. import defaults, ops, properties, rails
-from ..fields import OPERATION, kind_field
 from . import edges, labels, operation_panel, path_colours
 from .command import ICONS
 
@@ -86,8 +85,7 @@ class ViewProviderStylus(PathOpGui.ViewProvider):
 
 def icon_of(obj: Any) -> str:
     """The file of an operation's icon."""
-    kind = getattr(obj, kind_field(properties.fields(), OPERATION).name, "") if ops.engine.is_there() else ""
-    own: FilePath = ICONS / f"{GENERIC}-{kind}.svg"
+    own: FilePath = ICONS / f"{GENERIC}-{properties.kind_of(obj)}.svg"
     return str(own if own.is_file() else ICONS / f"{GENERIC}.svg")
 
 
