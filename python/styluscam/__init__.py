@@ -29,6 +29,7 @@ _MODULES = {
     "parts.part": ("Part",),
     "pocketing.contour": ("contour_path",),
     "pocketing.path": ("PocketPath", "pocket_path"),
+    "programs.cutting": ("CuttingData", "cutting_data"),
     "programs.job": ("Job", "job_schema", "starter_job"),
     "programs.machine": ("Machine",),
     "programs.planning": ("Plan", "Posted", "plan", "post", "read_gcode"),

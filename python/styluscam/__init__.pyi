@@ -21,6 +21,7 @@ from styluscam.offset.positions import drop_cutter, push_cutter, slope_matched_o
 from styluscam.offset.surface import OffsetSurface, offset_surface
 from styluscam.parts.part import Part
 from styluscam.pocketing.path import PocketPath, pocket_path
+from styluscam.programs.cutting import CuttingData, cutting_data
 from styluscam.programs.job import Job, job_schema, starter_job
 from styluscam.programs.machine import Machine
 from styluscam.programs.planning import Plan, Posted, plan, post, read_gcode
@@ -31,6 +32,7 @@ from styluscam.tools.tool import Tool
 __all__ = [
     "CancelToken",
     "Cancelled",
+    "CuttingData",
     "FlankError",
     "FlankPositions",
     "GeometryError",
@@ -56,6 +58,7 @@ __all__ = [
     "VerifyError",
     "__version__",
     "check_program",
+    "cutting_data",
     "drop_cutter",
     "engagement",
     "flank_positions",

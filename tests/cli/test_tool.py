@@ -400,3 +400,29 @@ def test_suggest_refuses_a_job_without_walls(cli: Any, mine: Path, tmp_path: Pat
     job.write_text(changed(COARSE_CUP, ('"Face1", "Face2", "Face3", "Face4"', '"Face1"')))
     ran = cli("tool", "suggest", job, "--library", mine)
     assert ran.code == 2 and "no sloping walls" in ran.err
+
+
+def test_feeds_prints_speed_and_feeds_with_their_reasons_and_sources(cli: Any) -> None:
+    asked = ("tool", "feeds", "ball-d6", "--material", "aluminium", "--cutter", "carbide", "--flutes", "2")
+    ran = cli(*asked, "--max-rpm", "12000")
+    assert ran.code == 0, ran.err
+    rows = dict(
+        re.split(r" {2,}", line.strip(), maxsplit=1) for line in ran.out.splitlines() if not line.startswith(" ")
+    )
+    assert (rows["spindle"], rows["feed"], rows["plunge"]) == ("12000 rev/min", "960 mm/min", "480 mm/min")
+    assert "367 m/min" in rows["because"] and "atagroup" in rows["source"]
+    document = cli(*asked, "--work", "finish-milling", "--json").json
+    assert document["speed_m_min"] == pytest.approx(440.0) and len(document["sources"]) == 1
+    wrong = cli(*asked, "--work", "turning")
+    assert wrong.code == 2 and "rough-milling" in wrong.err
+
+
+def test_materials_of_workpieces_are_listed_and_the_listing_is_a_table_again(cli: Any, tmp_path: Path) -> None:
+    ran = cli("material", "cutting")
+    assert ran.code == 0 and "stainless: stainless steel, austenitic" in ran.out
+    names = [material["name"] for material in cli("material", "cutting", "--json").json]
+    assert "aluminium" in names and "wood" in names
+    table = tmp_path / "shop.toml"
+    table.write_text(cli("material", "cutting", "--toml").out)
+    again = cli("material", "cutting", "--cutting-data", table, "--json").json
+    assert [material["name"] for material in again] == names

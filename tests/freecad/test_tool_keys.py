@@ -25,7 +25,7 @@ def test_tables_are_those_of_a_tool() -> None:
     assert list(found) == ["profile", "base", "holder", ""]
     assert [kind.word for kind in found["profile"].kinds] == list(starters.profiles())
     assert found["profile"].required and not found["base"].required
-    assert {key.path for key in found[""].keys[""]} == {"length", "shank_diameter"}
+    assert {key.path for key in found[""].keys[""]} == {"length", "shank_diameter", "flutes", "cutter_material"}
 
 
 def test_a_new_kind_and_a_range_need_no_line_here() -> None:

@@ -15,8 +15,8 @@ TOOLS, PROFILE = "tools", "profile"
 HOST = {"number", "length_offset", "library", "reference"}
 """Keys of a job's tool that no bit has: its tool controller and its file stand for them."""
 
-NUMBER, TEXT, LIST, POINTS, NAMED = "number", "text", "list", "points", "named"
-"""What a value is: a number, a text, some numbers, points (radius, height), numbers by name."""
+NUMBER, WHOLE, TEXT, LIST, POINTS, NAMED = "number", "whole", "text", "list", "points", "named"
+"""What a value is: a number, a whole one, a text, some numbers, points (radius, height), numbers by name."""
 
 WORD = re.compile(r"[^\d\W]\w*")
 
@@ -82,7 +82,7 @@ def tables_of(schema: JobSchema) -> tuple[ToolTable, ...]:
 
 
 def _is_table(key: Key) -> bool:
-    return "oneOf" in key.entry or "properties" in key.entry
+    return "properties" in key.entry or any("properties" in one for one in key.entry.get("oneOf", ()))
 
 
 def _table(schema: JobSchema, key: Key) -> ToolTable:
@@ -114,7 +114,7 @@ def _type(entry: Schema) -> str:
     stated = entry.get("type")
     if stated == "array":
         return POINTS if entry["items"].get("type") == "array" else LIST
-    return {"number": NUMBER, "object": NAMED}.get(str(stated), TEXT)
+    return {"number": NUMBER, "integer": WHOLE, "object": NAMED}.get(str(stated), TEXT)
 
 
 def _tip(entry: Schema, unit: str) -> str:
@@ -164,6 +164,10 @@ def _parsed(key: ToolKey, text: str) -> Any:
         return [_numbers(line, f"line {number}", 2) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
     if key.type == LIST:
         return _numbers(text, key.label.lower(), key.count)
+    if key.type == WHOLE:
+        if not text.isdecimal():
+            raise ValueTextError(f"{text!r}: a whole number is expected")
+        return int(text)
     if key.type == NAMED:
         return dict(_named(part) for part in re.split(r"[,;\n]", text) if part.strip())
     return text

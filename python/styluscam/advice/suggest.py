@@ -28,6 +28,7 @@ from styluscam.programs.job import Job
 from styluscam.programs.summary import BridgedFace, SurfaceSummary
 from styluscam.tools.scallop import scallop_of_spacing
 from styluscam.tools.tool import Tool
+from styluscam.tools.toolfile import TOOL
 from styluscam.types import Document, FloatArray, Progress
 
 BEST = 3
@@ -402,7 +403,7 @@ def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Prog
     document = copy.deepcopy(job.document)
     for name in {operation["tool"] for operation in document["operations"]}:
         section = document["tools"][name]
-        for key in ("profile", "base", "shank_diameter", "length", "holder", "library"):
+        for key in (*TOOL, "library"):
             section.pop(key, None)
         section |= candidate.tool.to_dict()
         section["reference"] = "tip"

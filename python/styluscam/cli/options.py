@@ -16,6 +16,24 @@ Units: TypeAlias = Annotated[
     str | None,
     typer.Option("--units", help="Unit of a file that states none: mm, cm, m, um, in, ft.", show_default=False),
 ]
+Material: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--material",
+        metavar="NAME",
+        help="What the workpiece is made of: `styluscam material cutting` lists what is known.",
+        show_default=False,
+    ),
+]
+CuttingTable: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--cutting-data",
+        metavar="FILE.toml",
+        help="A table of cutting data of your own, which goes before the shipped one.",
+        show_default=False,
+    ),
+]
 Picture: TypeAlias = Annotated[
     Path | None,
     typer.Option("--picture", metavar="FILE.png", help="Also draw a picture.", show_default=False),

@@ -1,4 +1,4 @@
-"""``styluscam tool list``, ``show``, ``new`` and ``plot``: tools, their libraries and their files."""
+"""``styluscam tool list``, ``show``, ``new``, ``plot`` and ``feeds``: tools, their libraries and their files, what they stand."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ import typer
 
 from styluscam import files
 from styluscam.cli import console
-from styluscam.cli.options import Debug, Force, Json, Quiet
+from styluscam.cli.options import CuttingTable, Debug, Force, Json, Quiet
 from styluscam.cli.summary import shown_path
 from styluscam.errors import ToolError
+from styluscam.programs import cutting
 from styluscam.tools import library, pointsfile, starters, toolfile
 from styluscam.tools.tool import Tool
 from styluscam.types import Document
@@ -27,6 +28,15 @@ Names = Annotated[list[str], typer.Argument(metavar="NAME|FILE...", help=TOOL_HE
 LibraryFile = Annotated[
     Path | None,
     typer.Option("--library", metavar="FILE.json", help="A library of your own.", show_default=False),
+]
+Stock = Annotated[
+    str,
+    typer.Option(
+        "--material",
+        metavar="NAME",
+        help="What the workpiece is made of: `styluscam material cutting` lists what is known.",
+        show_default=False,
+    ),
 ]
 NewFile = Annotated[Path, typer.Argument(metavar="FILE.json", help="The tool file to write.", show_default=False)]
 Kind = Annotated[
@@ -43,6 +53,45 @@ FitTolerance = Annotated[
 ]
 Out = Annotated[Path, typer.Option("--out", metavar="FILE.svg|.png", help="The picture to write.", show_default=False)]
 StepDown = Annotated[float, typer.Option("--step-mm", help="Step down between Z-levels, for the scallops, mm.")]
+
+
+Work = Annotated[
+    str, typer.Option("--work", metavar="WORK", help="rough-milling, finish-milling, drilling or tapping.")
+]
+Cutter = Annotated[
+    str | None,
+    typer.Option(
+        "--cutter", metavar="MATERIAL", help="hss or carbide; what the tool's file states.", show_default=False
+    ),
+]
+Flutes = Annotated[
+    int | None, typer.Option("--flutes", help="Cutting edges; what the tool's file states.", show_default=False)
+]
+Width = Annotated[
+    float | None, typer.Option("--width", metavar="MM", help="Width of cut across the path, mm.", show_default=False)
+]
+Angle = Annotated[
+    float | None, typer.Option("--angle", metavar="DEG", help="Engagement angle, degrees.", show_default=False)
+]
+Depth = Annotated[
+    float | None, typer.Option("--depth", metavar="MM", help="Depth of cut along the axis, mm.", show_default=False)
+]
+Pitch = Annotated[
+    float | None, typer.Option("--pitch", metavar="MM", help="Pitch of a thread, mm.", show_default=False)
+]
+Fastest = Annotated[
+    float | None, typer.Option("--max-rpm", help="Fastest spindle, rev/min; the machine's.", show_default=False)
+]
+Slowest = Annotated[
+    float | None, typer.Option("--min-rpm", help="Slowest spindle, rev/min; the machine's.", show_default=False)
+]
+FastestFeed = Annotated[
+    float | None, typer.Option("--max-feed", help="Fastest feed, mm/min; the machine's.", show_default=False)
+]
+ForMachine = Annotated[
+    str | None,
+    typer.Option("--machine", "-m", metavar="NAME|FILE", help="The machine whose limits hold.", show_default=False),
+]
 
 
 @app.callback(invoke_without_command=True)
@@ -156,6 +205,58 @@ def plot(
     return 0
 
 
+@app.command("feeds")
+def feeds(
+    name: Name,
+    material: Stock,
+    *,
+    work: Work = "rough-milling",
+    cutter: Cutter = None,
+    flutes: Flutes = None,
+    width: Width = None,
+    angle: Angle = None,
+    depth: Depth = None,
+    pitch: Pitch = None,
+    machine: ForMachine = None,
+    min_rpm: Slowest = None,
+    max_rpm: Fastest = None,
+    max_feed: FastestFeed = None,
+    cutting_data: CuttingTable = None,
+    own: LibraryFile = None,
+    json: Json = False,
+    debug: Debug = False,
+) -> int:
+    """Speed of the spindle and feeds of a tool in a material, with what they follow from and the sources."""
+    data = cutting.cutting_data(
+        find(name, own),
+        material,
+        work,
+        cutter_material=cutter,
+        flutes=flutes,
+        width=width,
+        angle_deg=angle,
+        depth=depth,
+        pitch=pitch,
+        machine=machine,
+        min_rpm=min_rpm,
+        max_rpm=max_rpm,
+        max_feed=max_feed,
+        table=cutting_data,
+    )
+    if json:
+        console.say_json(data)
+        return 0
+    rows = [
+        ("spindle", f"{data.rpm:.0f} rev/min"),
+        ("feed", f"{data.feed:.0f} mm/min"),
+        ("plunge", f"{data.plunge:.0f} mm/min"),
+        ("chip", f"{data.chip:.3g} mm"),
+    ]
+    rows += [("" if number else "because", reason) for number, reason in enumerate(data.reasons)]
+    console.fields(rows + [("source", source) for source in data.sources])
+    return 0
+
+
 def find(name: str, own: Path | None) -> Tool:
     """A tool by file, or by its name in a library: one's own first, then the shipped ones."""
     if toolfile.file_and_name(name)[0]:
@@ -213,7 +314,7 @@ def _lines(document: Document) -> list[tuple[str, str]]:
         ("max slope", f"{document['max_slope_deg']:.4g} deg"),
         ("at the tip", _tip(document)),
     ]
-    for key in ("base", "shank_diameter", "length", "holder"):
+    for key in toolfile.TOOL[1:]:
         if document.get(key) is not None:
             rows.append((key.replace("_", " "), _value(document[key])))
     if document["fit_deviation_mm"] is not None:

@@ -18,9 +18,11 @@ from styluscam.parts import springback, wires
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
 from styluscam.parts.part import Part, PartLike
+from styluscam.programs.cutting import CuttingData, limits_of, table_text
 from styluscam.programs.machine import Machine
 from styluscam.tools import pointsfile
 from styluscam.tools.tool import Tool
+from styluscam.tools.toolfile import TOOL
 from styluscam.types import Document, FloatArray, Progress
 from styluscam.words import counted, shortened
 
@@ -46,6 +48,8 @@ class Job:
     name: str
     file: Path | None
     document: Document
+    cutting_data: dict[str, CuttingData]
+    """What feeds and spindles that the document leaves out follow from, by the operation's id."""
     _target: Part | None
     """The part in the file, once it was read."""
     _part: Part | None
@@ -68,7 +72,9 @@ class Job:
         part: Part | None = None,
         file: Path | None = None,
         tool_files: Sequence[Path] = (),
+        written: object = None,
     ) -> Job:
+        """``written`` is the document as its author wrote it: what it leaves out of feeds follows from its material."""
         job = cls.__new__(cls)
         job.engine, job.folder, job.name, job.file = engine, folder, name, file
         job._target = job._handed = part
@@ -78,6 +84,8 @@ class Job:
         job._take_wires()
         job._take_tools()
         job._tool_files += tool_files
+        job.cutting_data = {}
+        job._take_cutting_data(written)
         return job
 
     def __repr__(self) -> str:
@@ -142,8 +150,8 @@ class Job:
             raise JobError(f"{path}: {why}", code="unreadable", where=str(path), hint="name a job file") from error
         # a job that comes through a pipe speaks of files from here
         folder = Path.cwd() if path.is_fifo() else path.resolve().parent
-        engine, files = _of_json(text, folder) if path.suffix == ".json" else _of_toml(text, folder)
-        return cls._built(engine, folder, path.stem, file=path, tool_files=files)
+        engine, files, written = _of_json(text, folder) if path.suffix == ".json" else _of_toml(text, folder)
+        return cls._built(engine, folder, path.stem, file=path, tool_files=files, written=written)
 
     @classmethod
     def from_toml(cls, text: str, folder: FileName = ".") -> Job:
@@ -155,8 +163,8 @@ class Job:
         if not isinstance(text, str):
             raise refused("text", text, "the text of a job file", JobError)
         origin = file_of(folder, "folder", "the name of a folder (str or Path)", JobError)
-        engine, files = _of_toml(text, origin)
-        return cls._built(engine, origin, tool_files=files)
+        engine, files, written = _of_toml(text, origin)
+        return cls._built(engine, origin, tool_files=files, written=written)
 
     @classmethod
     def from_dict(cls, document: Document, folder: FileName = ".", part: PartLike | None = None) -> Job:
@@ -169,7 +177,7 @@ class Job:
         document, files = _resolved(document_of(document, "document", "a dict with a job's keys", JobError), origin)
         text = json_of(document, "document", JobError)
         known = None if part is None else Part.of(part)
-        return cls._built(_engine.Job.from_json(text), origin, part=known, tool_files=files)
+        return cls._built(_engine.Job.from_json(text), origin, part=known, tool_files=files, written=json.loads(text))
 
     @staticmethod
     def check(text: str) -> None:
@@ -212,6 +220,19 @@ class Job:
             self._tool_files += files
             self.engine = _engine.Job.from_json(json.dumps(self.document))
             self.document = json.loads(self.engine.to_json())
+
+    def _take_cutting_data(self, written: object) -> None:
+        """Puts in the feeds and spindles that the document leaves out, where it states what is milled."""
+        process = self.document["process"]
+        if process.get("material") is None or self.engine.forms:
+            return
+        named = process.get("cutting_data")
+        table = None if named is None else table_text(self.folder / named)
+        self._tool_files += [] if named is None else [Path(named)]
+        limits = json.dumps(limits_of(self.machine()))
+        self.engine, filled = self.engine.with_cutting_data(json.dumps(written), table, limits)
+        self.document = json.loads(self.engine.to_json())
+        self.cutting_data = {one["id"]: CuttingData(**one["data"]) for one in json.loads(filled)}
 
     def inputs(self) -> list[Path]:
         """The files that the job is read from: itself, the part's, the machine's, the tools' and those of boundaries."""
@@ -266,9 +287,8 @@ class Job:
 
     def tools(self) -> dict[str, Tool]:
         """The job's tools by name: profile, base, shank and holder."""
-        keys = ("profile", "base", "shank_diameter", "length", "holder")
         sections = self.document["tools"].items()
-        return {name: Tool.from_dict({key: tool[key] for key in keys if key in tool}) for name, tool in sections}
+        return {name: Tool.from_dict({key: tool[key] for key in TOOL if key in tool}) for name, tool in sections}
 
     def machine(self, channel: str = MAIN_CHANNEL) -> Machine:
         """The machine that the job names for a channel.
@@ -317,24 +337,25 @@ def _resolved(document: Document, folder: Path) -> tuple[Document, list[Path]]:
     return {**document, "tools": taken}, files
 
 
-def _of_toml(text: str, folder: Path) -> tuple[_engine.Job, list[Path]]:
-    """The job in a TOML text, and the files with points that it names; what is no TOML is for the engine to report."""
+def _of_toml(text: str, folder: Path) -> tuple[_engine.Job, list[Path], object]:
+    """The job in a TOML text, the files with points that it names, and the document; what is no TOML the engine reports."""
     try:
         document = tomllib.loads(text)
     except (ValueError, RecursionError):
-        return _engine.Job.from_toml(text), []
+        return _engine.Job.from_toml(text), [], None
     document, files = _resolved(document, folder)
-    return (_engine.Job.from_json(json_of(document, "job", JobError)) if files else _engine.Job.from_toml(text)), files
+    engine = _engine.Job.from_json(json_of(document, "job", JobError)) if files else _engine.Job.from_toml(text)
+    return engine, files, document
 
 
-def _of_json(text: str, folder: Path) -> tuple[_engine.Job, list[Path]]:
+def _of_json(text: str, folder: Path) -> tuple[_engine.Job, list[Path], object]:
     """As :func:`_of_toml`, of a JSON text."""
     try:
         document = json.loads(text)
     except (ValueError, RecursionError):
-        return _engine.Job.from_json(text), []
+        return _engine.Job.from_json(text), [], None
     document, files = _resolved(document, folder) if isinstance(document, dict) else (document, [])
-    return _engine.Job.from_json(json.dumps(document) if files else text), files
+    return _engine.Job.from_json(json.dumps(document) if files else text), files, document
 
 
 def job_schema() -> Document:

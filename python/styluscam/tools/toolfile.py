@@ -25,7 +25,7 @@ SCHEMA = 1
 NAMING = ("schema", "name", "title")
 """Keys around the tool: the engine does not see them."""
 
-TOOL = ("profile", "base", "shank_diameter", "length", "holder")
+TOOL = ("profile", "base", "shank_diameter", "length", "holder", "flutes", "cutter_material")
 """Keys of the tool itself."""
 
 REFERENCE = re.compile(r"(.+?\.(?:json|fctb))(?::(.+))?", re.IGNORECASE | re.DOTALL)

@@ -1,9 +1,12 @@
 //! Job documents.
 
 use pyo3::prelude::*;
-use styluscam_job::JobDocument;
+use styluscam_job::{JobDocument, MachineLimits};
 
-use crate::{channel::channel_of, errors::of_job, json::json, part::Part};
+use crate::channel::channel_of;
+use crate::cutting::table_of;
+use crate::errors::{of_job, raise};
+use crate::{json::json, part::Part};
 
 /// A checked job document; see `styluscam.Job`.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -26,6 +29,17 @@ impl Job {
     /// The document with all defaults, as JSON.
     fn to_json(&self) -> PyResult<String> {
         json(&self.document)
+    }
+
+    /// The job with the feeds and spindles that its document as it was written (JSON) leaves out, and what they follow from, as JSON:
+    /// `own` is a shop's table (TOML), `limits` the machine's (JSON).
+    fn with_cutting_data(&self, written: &str, own: Option<&str>, limits: &str) -> PyResult<(Self, String)> {
+        let wrong = |error: serde_json::Error| raise("JobError", &error.to_string(), "argument", "", "");
+        let written: serde_json::Value = serde_json::from_str(written).map_err(wrong)?;
+        let limits: MachineLimits = serde_json::from_str(limits).map_err(wrong)?;
+        let (document, filled) =
+            styluscam_job::with_cutting_data(&self.document, &written, &table_of(own)?, limits).map_err(of_job)?;
+        Ok((Self { document }, json(&filled)?))
     }
 
     /// The names of its operations.

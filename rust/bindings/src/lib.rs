@@ -4,6 +4,7 @@
 
 mod arrays;
 mod channel;
+mod cutting;
 mod elementary;
 mod errors;
 mod flank;
@@ -36,6 +37,8 @@ use pyo3::prelude::*;
 mod _engine {
     #[pymodule_export]
     use crate::channel::require_channel;
+    #[pymodule_export]
+    use crate::cutting::{cutting_data, cutting_table, shipped_cutting_tables};
     #[pymodule_export]
     use crate::elementary::Elementary;
     #[pymodule_export]

@@ -36,7 +36,7 @@ pub use plane::{PlaneCircle, PlanePiece, PlanePoint};
 pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};
 pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallEnd, WallFault, WallShape, Walled, Warped};
 pub use sheet::{ModelFace, Sheet, SheetLaw};
-pub use tool::{Base, Holder, Tool, ToolDocument};
+pub use tool::{Base, CutterMaterial, Holder, Tool, ToolDocument};
 pub use tool_body::ToolBody;
 pub use tool_flank::ToolFlank;
 pub use tool_parts::ToolPart;

@@ -28,6 +28,37 @@ pub struct ToolDocument {
     /// The holder above it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holder: Option<Holder>,
+    /// How many cutting edges it has.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 1, "maximum" = 100))]
+    pub flutes: Option<u32>,
+    /// What its cutting edges are made of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutter_material: Option<CutterMaterial>,
+}
+
+/// What cutting edges are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CutterMaterial {
+    /// High-speed steel, with cobalt or without.
+    Hss,
+    /// Cemented carbide.
+    Carbide,
+}
+
+impl CutterMaterial {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Hss, Self::Carbide];
+
+    /// Its name in documents.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hss => "hss",
+            Self::Carbide => "carbide",
+        }
+    }
 }
 
 /// What joins a profile's base to the shank (US 2023/0035585: cylindrical, chamfered, or with a tangent transition).
@@ -95,7 +126,15 @@ impl ToolDocument {
     /// A tool of which only the profile is known.
     #[must_use]
     pub fn of(profile: ProfileDocument) -> Self {
-        Self { profile, base: None, shank_diameter: None, length: None, holder: None }
+        Self {
+            profile,
+            base: None,
+            shank_diameter: None,
+            length: None,
+            holder: None,
+            flutes: None,
+            cutter_material: None,
+        }
     }
 }
 
@@ -114,6 +153,9 @@ impl Tool {
     /// A profile that does not build, or a shank or length out of range.
     pub fn new(document: ToolDocument) -> Result<Self, GeometryError> {
         let (profile, report) = document.profile.build()?;
+        if document.flutes == Some(0) {
+            return Err(GeometryError::OutOfRange { key: "flutes", value: 0.0, allowed: "1 or more" });
+        }
         if let Some(diameter) = document.shank_diameter {
             positive_length("shank_diameter", diameter)?;
         }

@@ -3,6 +3,7 @@
 use styluscam_geometry::{Sheet, SheetLaw};
 use styluscam_verify::Support;
 
+use crate::cutting::CuttingTable;
 use crate::fixture::FixtureSection;
 use crate::process::Opposite;
 use crate::resolve::check_channels;
@@ -142,7 +143,15 @@ fn spun(process: &Process, sheet: &SheetSection) -> Result<(), JobError> {
 }
 
 fn process(process: &ProcessSection) -> Result<(), JobError> {
-    process.process.as_kind().material().map_or(Ok(()), crate::materials::check)
+    let kind = process.process.as_kind();
+    match (process.common.material.as_deref(), kind.takes_sheet(), kind.cutting_data()) {
+        (Some(material), true, _) => crate::materials::check(material),
+        (Some(material), false, None) => {
+            CuttingTable::shipped().material(material).map(|_| ()).map_err(|error| error.at("process.material"))
+        }
+        // a shop's own table is still to be read
+        (Some(_), false, Some(_)) | (None, _, _) => Ok(()),
+    }
 }
 
 /// Rapids pass over the clamp.

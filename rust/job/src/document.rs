@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::{Base, Holder, ModelFace, ProfileDocument, SheetLaw};
+use styluscam_geometry::{Base, CutterMaterial, Holder, ModelFace, ProfileDocument, SheetLaw};
 use styluscam_motion::ToolReference;
 
 use crate::selection::CheckSelection;
@@ -269,6 +269,13 @@ pub struct ToolSection {
     /// The holder above it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holder: Option<Holder>,
+    /// How many cutting edges it has.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 1, "maximum" = 100))]
+    pub flutes: Option<u32>,
+    /// What its cutting edges are made of: "hss" (high-speed steel) or "carbide".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutter_material: Option<CutterMaterial>,
 }
 
 /// The machine: shipped, or a file.

@@ -61,6 +61,14 @@ impl JobError {
         Self::Document { message: message.into(), location: location.into(), hint: hint.into(), code }
     }
 
+    /// The same where a document has it under another path.
+    pub(crate) fn at(self, location: &str) -> Self {
+        match self {
+            Self::Document { message, hint, code, .. } => Self::document(code, location, message, hint),
+            other => other,
+        }
+    }
+
     pub(crate) fn geometry(location: impl Into<String>) -> impl FnOnce(GeometryError) -> Self {
         let location = location.into();
         move |error| Self::Geometry { error, location }

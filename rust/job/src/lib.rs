@@ -9,6 +9,7 @@ mod boundary;
 mod check;
 mod chuck;
 mod clamp;
+mod cutting;
 mod die;
 mod document;
 mod error;
@@ -54,6 +55,10 @@ pub use advice::{walls, Bend, Corner, Wall, Walls};
 pub use body::{Body, Border, FaceLook, Heights, Hollows, Shell, Side, Thickness, Unformable, SIDES};
 pub use boundary::{BoundaryInside, BoundaryKeys};
 pub use chuck::Chuck;
+pub use cutting::{
+    cutting_data, shipped_texts, with_cutting_data, Cut, CuttingData, CuttingEntry, CuttingMaterial, CuttingTable,
+    CuttingWork, Engagement, Filled, MachineLimits, Span,
+};
 pub use document::{
     JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection, Zero,
 };

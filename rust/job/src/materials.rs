@@ -63,7 +63,7 @@ pub(crate) fn wall_angle(job: &JobDocument, sheet: &SheetSection) -> WallAngle {
     if let Some(most_deg) = sheet.max_wall_angle_deg {
         return WallAngle { most_deg, sure_deg: f64::INFINITY, source: WallAngleSource::Job };
     }
-    if let Some(material) = job.process.process.as_kind().material().and_then(named) {
+    if let Some(material) = job.process.common.material.as_deref().and_then(named) {
         let [sure_deg, most_deg] = material.bears(sheet.thickness);
         return WallAngle { most_deg, sure_deg, source: WallAngleSource::Material(&material.name) };
     }

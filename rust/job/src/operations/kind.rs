@@ -6,6 +6,7 @@ use styluscam_motion::Move;
 use styluscam_verify::{Contact, Layers, Passes};
 
 use super::{Areas, Context, Effort, Fact, SurfaceFacts};
+use crate::cutting::{CuttingWork, Engagement};
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys, Scene};
 
@@ -34,6 +35,11 @@ pub trait OperationKind {
     /// The feed along its passes, mm/min.
     fn cut_feed(&self, common: &OperationKeys) -> f64 {
         common.feeds.cut
+    }
+
+    /// The work that its passes are, and how its tool is engaged, as far as its keys state that.
+    fn cutting(&self) -> (CuttingWork, Engagement) {
+        (CuttingWork::FinishMilling, Engagement::default())
     }
 
     /// The highest of its feeds, mm/min, where they depend on what is cut.

@@ -23,6 +23,7 @@ use super::{
     About, Areas, Context, Effort, Fact, Fit, LeadForm, LinkHeight, OperationKind, PassContext, PassSpacing, Planned,
     Serves,
 };
+use crate::cutting::{CuttingWork, Engagement};
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys};
 
@@ -291,6 +292,11 @@ impl OperationKind for Pocket {
             surface: None,
             moves: cleared.moves,
         })
+    }
+
+    fn cutting(&self) -> (CuttingWork, Engagement) {
+        let angle_deg = Some(self.engagement_deg + self.growth_deg);
+        (CuttingWork::RoughMilling, Engagement { angle_deg, ..Engagement::default() })
     }
 
     fn highest_feed(&self, common: &OperationKeys) -> Option<f64> {

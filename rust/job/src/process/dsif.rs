@@ -14,9 +14,6 @@ const SUPPORT: &str = "support";
 #[serde(deny_unknown_fields, default)]
 #[schemars(extend("x-takes-sheet" = true))]
 pub struct Dsif {
-    /// What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub material: Option<String>,
     /// Name of the tool under the sheet, for all operations.
     #[schemars(extend("x-example" = "\"support\""))]
     pub support_tool: String,
@@ -28,7 +25,7 @@ pub struct Dsif {
 impl Default for Dsif {
     /// The tools touch the sheet and do not squeeze it: what thinning beyond the law takes is the user's to measure.
     fn default() -> Self {
-        Self { material: None, support_tool: SUPPORT.to_owned(), squeeze: 1.0 }
+        Self { support_tool: SUPPORT.to_owned(), squeeze: 1.0 }
     }
 }
 
@@ -47,9 +44,5 @@ impl ProcessKind for Dsif {
 
     fn opposite(&self, channel: &str) -> Option<Opposite<'_>> {
         (channel == SUPPORT).then_some(Opposite { tool: &self.support_tool, squeeze: self.squeeze })
-    }
-
-    fn material(&self) -> Option<&str> {
-        self.material.as_deref()
     }
 }

@@ -57,8 +57,8 @@ pub trait ProcessKind {
         None
     }
 
-    /// Name of the shipped material of the sheet, if stated.
-    fn material(&self) -> Option<&str> {
+    /// The file with a shop's own table of cutting data, if stated.
+    fn cutting_data(&self) -> Option<&str> {
         None
     }
 }
@@ -96,6 +96,11 @@ kinds! {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProcessKeys {
+    /// What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
+    /// that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
+    /// that an operation leaves out follow from it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
     /// Most that may be left on the faces where the tool cannot get, mm; 1 mm of a sheet, and not checked in milling, when left
     /// out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -108,7 +113,7 @@ pub struct ProcessKeys {
 
 impl Default for ProcessKeys {
     fn default() -> Self {
-        Self { max_bridged: None, max_unreached: 0.1 }
+        Self { material: None, max_bridged: None, max_unreached: 0.1 }
     }
 }
 

@@ -15,11 +15,7 @@ use super::{About, ProcessKind};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(extend("x-takes-sheet" = true))]
-pub struct Spinning {
-    /// What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub material: Option<String>,
-}
+pub struct Spinning {}
 
 impl Spinning {
     pub(super) const ABOUT: About = About { words: "shear spinning over a mandrel", for_sheets: true };
@@ -36,9 +32,5 @@ impl ProcessKind for Spinning {
 
     fn support(&self) -> Support {
         Support::Mandrel
-    }
-
-    fn material(&self) -> Option<&str> {
-        self.material.as_deref()
     }
 }

@@ -14,9 +14,6 @@ pub struct Tpif {
     /// What lies under the sheet.
     #[schemars(extend("x-example" = "\"male\""))]
     pub die: Die,
-    /// What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub material: Option<String>,
 }
 
 impl Tpif {
@@ -37,9 +34,5 @@ impl ProcessKind for Tpif {
 
     fn die(&self) -> Option<Die> {
         Some(self.die)
-    }
-
-    fn material(&self) -> Option<&str> {
-        self.material.as_deref()
     }
 }

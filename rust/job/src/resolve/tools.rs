@@ -24,6 +24,8 @@ fn tool(name: &str, section: &ToolSection, job: &JobDocument) -> Result<(Tool, T
         shank_diameter: section.shank_diameter,
         length: section.length,
         holder: section.holder,
+        flutes: section.flutes,
+        cutter_material: section.cutter_material,
     };
     let tool = Tool::new(document).map_err(JobError::geometry(format!("tools.{name}")))?;
     let reference_height = match section.reference {

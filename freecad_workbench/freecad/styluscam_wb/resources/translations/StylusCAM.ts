@@ -14,6 +14,11 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>A table of cutting data of your own (TOML), which goes before the shipped one; relative to the job file.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Air that rapids below clearance keep above the part, the sheet as it stands and uncut stock, mm.
 Range: 0.1 to 1000 mm</source>
         <translation type="unfinished"></translation>
@@ -468,14 +473,16 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the posted path is made of.
-lines: Lines.
-arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
+        <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
+that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
+that an operation leaves out follow from it.
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
-0 or empty: not stated</source>
+        <source>What the posted path is made of.
+lines: Lines.
+arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -592,6 +599,11 @@ As JSON
     </message>
     <message>
         <source>A smooth transition to the shank's diameter, with one tangent at both ends.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A table of cutting data of your own (TOML), which goes before the shipped one; relative to the job file.
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -831,6 +843,14 @@ Stock is the part's box, as high as the part, or what the operations before leav
     </message>
     <message>
         <source>Curvature grows linearly with arc length from the tip: R L = A.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cutter material</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cutting data</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1096,6 +1116,10 @@ Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Flutes</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Folder of machine files</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1202,6 +1226,11 @@ Range: 0 to 1000 mm
         <source>How high rapids from pass to pass go.
 clearance: To clearance.
 low: `link_margin` above what stands under the line that they cross, clearance at most: for machines whose rapids go straight.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How many cutting edges it has.
+Range: 1 to 100</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2322,6 +2351,10 @@ Range: 0.8 to 1</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What its cutting edges are made of: "hss" (high-speed steel) or "carbide".</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What joins the profile's base to the shank.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2332,14 +2365,16 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the posted path is made of.
-lines: Lines.
-arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
+        <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
+that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
+that an operation leaves out follow from it.
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the sheet is made of, by the name of a shipped material: it sets the steepest wall that the sheet withstands.
-0 or empty: not stated</source>
+        <source>What the posted path is made of.
+lines: Lines.
+arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
