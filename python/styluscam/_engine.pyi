@@ -405,6 +405,9 @@ def starter(
     faces: list[tuple[str, str, float, tuple[float, float]]],
     units: str | None = None,
     edge_gap: float = 0.0,
+    *,
+    material: str | None = None,
+    cutting_data: tuple[str, str] | None = None,
 ) -> tuple[str, list[str]]: ...
 def shipped_machines() -> list[str]: ...
 

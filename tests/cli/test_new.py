@@ -87,6 +87,53 @@ def test_new_job_of_any_solid_runs(parts, cli, name):
     assert ran.json["summary"]["operations"][0]["facts"][1]["value"] >= 1
 
 
+def test_feeds_and_spindle_are_for_the_material_with_the_source_beside_them(parts, cli):
+    job, part = parts / "of steel.toml", parts / "box.step"
+    made = cli("new", part, "--material", "mild-steel", "--out", job)
+    assert made.code == 0, made.err
+    document = sc.Job(job).document
+    assert document["process"]["material"] == "steel"
+    tool = document["tools"]["cutter"]
+    assert (tool["profile"], tool["flutes"], tool["cutter_material"]) == (
+        {"kind": "flat", "diameter": 10.0, "tip_flat": 0.0}, 2, "carbide"
+    )  # fmt: skip
+    # 230 m/min and 0.08 mm per tooth: 7321 rev/min and 1171 mm/min, rounded down
+    operation = document["operations"][0]
+    assert (operation["spindle"]["rpm"], operation["feeds"]["cut"], operation["feeds"]["plunge"]) == (
+        7300.0,
+        1160.0,
+        580.0,
+    )
+    text = job.read_text().replace("\n#  ", "")
+    assert re.search(r'# - source: .*atagroup.*"Unalloyed steel < 500 N/mm2"\nfeeds = ', text)
+    ran = cli("run", job, "--json")
+    assert ran.code == 0, ran.out[-2000:]
+
+
+def test_a_table_of_one_s_own_is_named_in_the_job(parts, cli):
+    table = parts / "shop.toml"
+    table.write_text(
+        '[[materials]]\nname = "our brass"\n[[materials.data]]\ncutter = "carbide"\nwork = ["finish-milling"]\n'
+        "rpm = 60\nchip_mm = [[10, 0.05]]\n"
+    )
+    job = parts / "of brass.toml"
+    made = cli("new", parts / "box.step", "--material", "our brass", "--cutting-data", table, "--out", job)
+    assert made.code == 0, made.err
+    document = sc.Job(job).document
+    assert document["process"] == {
+        "kind": "milling", "material": "our brass", "cutting_data": "shop.toml", "max_unreached": 0.1
+    }  # fmt: skip
+    operation = document["operations"][0]
+    assert (operation["spindle"]["rpm"], operation["feeds"]["cut"]) == (60.0, 6.0)
+    assert "# - source: the shop's table" in job.read_text()
+
+
+def test_an_unknown_material_lists_the_known_ones(parts, cli):
+    ran = cli("new", parts / "box.step", "--material", "unobtainium", "--out", parts / "none.toml")
+    assert ran.code == 2 and '"stainless" (stainless steel, austenitic)' in ran.err
+    assert not (parts / "none.toml").exists()
+
+
 def test_new_job_runs_as_it_stands_where_levels_end_at_jumps(parts, cli):
     """The posts of the bracket's walls are vertical: levels end where the tool would fall past their rounded feet."""
     job = parts / "bracket as it stands.toml"

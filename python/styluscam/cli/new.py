@@ -12,11 +12,12 @@ import typer
 
 from styluscam import files
 from styluscam.cli import console, progress
-from styluscam.cli.options import Debug, Force, Json, PartFile, Quiet, Units
+from styluscam.cli.options import CuttingTable, Debug, Force, Json, Material, PartFile, Quiet, Units
 from styluscam.cli.summary import shown_path
 from styluscam.errors import GeometryError, JobError
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.reading import read_part, require_part
+from styluscam.programs.cutting import table_text
 from styluscam.programs.job import Job, starter_job
 from styluscam.types import Progress
 
@@ -41,6 +42,8 @@ def new(
     part: PartFile,
     *,
     units: Units = None,
+    material: Material = None,
+    cutting_data: CuttingTable = None,
     out: Out = None,
     force: Force = False,
     json: Json = False,
@@ -49,8 +52,8 @@ def new(
 ) -> int:
     """Write a commented job file for a part.
 
-    It forms what a sheet can be formed to and mills the rest, with a tool that fits the part, and states why. It runs as
-    it stands.
+    It forms what a sheet can be formed to and mills the rest, with a tool that fits the part and feeds for its material,
+    and states why. It runs as it stands.
     """
     require_part(part)
     path = out or part.with_suffix(".toml")
@@ -58,7 +61,8 @@ def new(
     files.require_writable([path], [part])
     with progress.shown(not (json or quiet)) as report:
         arrays = _looked_at(part, units, report)
-    made = starter_job(arrays, _relative(part, path.parent), units)
+    named = _relative(part, path.parent)
+    made = starter_job(arrays, named, units, material=material, cutting_data=_table(cutting_data, path.parent))
     Job.check(made.text)
     files.write_whole(path, made.text)
     if json:
@@ -71,6 +75,11 @@ def new(
     with progress.shown(not (json or quiet)) as report:
         _read_ahead(path, report)
     return 0
+
+
+def _table(file: Path | None, folder: Path) -> tuple[str, str] | None:
+    """A table of cutting data as a job in ``folder`` names it, and its text."""
+    return None if file is None else (_relative(file, folder), table_text(file))
 
 
 def _looked_at(part: Path, units: str | None, report: Progress | None) -> PartArrays:

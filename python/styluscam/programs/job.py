@@ -377,7 +377,26 @@ class Starter(NamedTuple):
     """Sentences: what the part is taken for, and what follows from it."""
 
 
-def starter_job(arrays: PartArrays, file: str, units: str | None = None) -> Starter:
-    """A commented job for a part: formed where it is a sheet that can be, else milled; it runs as it stands."""
+def starter_job(
+    arrays: PartArrays,
+    file: str,
+    units: str | None = None,
+    *,
+    material: str | None = None,
+    cutting_data: tuple[str, str] | None = None,
+) -> Starter:
+    """A commented job for a part: formed where it is a sheet that can be, else milled; it runs as it stands.
+
+    Args:
+        arrays: the part.
+        file: the part's file, as the job should name it.
+        units: of that file, where it does not state them.
+        material: what the part is made of; feeds and the spindle follow from it in milling. Aluminium when left out.
+        cutting_data: a table of cutting data of one's own: the file as the job should name it, and its text.
+
+    Raises:
+        JobError: the material is not in the tables.
+    """
     faces = [(f.name, f.kind, f.area_mm2, (f.slope_min_deg, f.slope_max_deg)) for f in arrays.faces]
-    return Starter(*_engine.starter(Part.from_arrays(arrays).engine, file, faces, units, arrays.edge_gap_mm))
+    engine, gap = Part.from_arrays(arrays).engine, arrays.edge_gap_mm
+    return Starter(*_engine.starter(engine, file, faces, units, gap, material=material, cutting_data=cutting_data))

@@ -3,14 +3,16 @@
 use pyo3::prelude::*;
 use styluscam_job::{StarterFace, StarterPart};
 
-use crate::part::Part;
+use crate::{cutting::table_of, errors::of_job, part::Part};
 
 /// A face for a starter job: name, kind, area (mm^2), smallest and largest slope (degrees).
 type ListedFace = (String, String, f64, [f64; 2]);
 
-/// A commented job for a part that has none yet, and the sentences that state why it is so.
+/// A commented job for a part that has none yet, and the sentences that state why it is so. `cutting_data` is a shop's own table: the file
+/// as the job should name it, and its text.
 #[pyfunction]
-#[pyo3(signature = (part, file, faces, units=None, edge_gap=0.0))]
+#[allow(clippy::too_many_arguments)] // Python's keywords
+#[pyo3(signature = (part, file, faces, units=None, edge_gap=0.0, *, material=None, cutting_data=None))]
 pub fn starter(
     py: Python<'_>,
     part: &Part,
@@ -18,10 +20,16 @@ pub fn starter(
     faces: Vec<ListedFace>,
     units: Option<&str>,
     edge_gap: f64,
-) -> (String, Vec<String>) {
+    material: Option<&str>,
+    cutting_data: Option<(String, String)>,
+) -> PyResult<(String, Vec<String>)> {
     let faces: Vec<StarterFace> =
         faces.into_iter().map(|(name, kind, area, slope_deg)| StarterFace { name, kind, area, slope_deg }).collect();
     let mesh = &part.part.mesh;
-    let made = py.detach(|| styluscam_job::starter(&StarterPart { file, units, mesh, faces: &faces, edge_gap }));
-    (made.text, made.reasons)
+    let (name, text) = cutting_data.unzip();
+    let table = table_of(text.as_deref())?;
+    let cutting_data = name.as_deref();
+    let part = StarterPart { file, units, mesh, faces: &faces, edge_gap, material, table: &table, cutting_data };
+    let made = py.detach(|| styluscam_job::starter(&part)).map_err(of_job)?;
+    Ok((made.text, made.reasons))
 }

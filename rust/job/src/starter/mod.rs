@@ -1,33 +1,29 @@
 //! A commented job for a part that has none yet: it runs as it is, states why it is so, and shows what can be changed.
 
 mod choice;
+mod feeds;
 mod operations;
 mod part;
 mod sizes;
+mod text;
 mod workable;
 
 use std::path::Path;
 
 use crate::operations::{About, Operation, StarterPasses};
-use crate::{Process, UpAxis};
+use crate::{JobError, Process, UpAxis};
 use choice::{choose, Choice};
+use feeds::StarterFeeds;
 use operations::Work;
 pub use part::{StarterFace, StarterPart};
 pub use sizes::fitting_radius;
 use sizes::{round, Shape};
+use text::{number, quoted, wrapped};
 
 /// From this slope on a face does not face up: it is not listed, degrees.
 const WALL: f64 = 90.1;
 /// Faces that the comment lists at most.
 const LISTED: usize = 60;
-/// Width of the comment at the top, in characters.
-const WIDTH: usize = 110;
-/// Cutting speed that a small machine and aluminium stand, mm/min, and the spindle's speeds, rev/min.
-const CUTTING_SPEED: f64 = 150_000.0;
-const SPEEDS: [f64; 2] = [3_000.0, 12_000.0];
-/// Feed per revolution of two teeth, as a share of the diameter, and the feeds that follow at most, mm/min.
-const FEED: f64 = 0.01;
-const FEEDS: [f64; 2] = [100.0, 1500.0];
 /// The path's tolerance, and what the file's own edges may take of it, mm.
 const PATH_TOLERANCE: f64 = 0.01;
 const PART_TOLERANCE: f64 = 0.003;
@@ -47,12 +43,16 @@ pub struct Starter {
 
 /// A job for a part: formed where it is a sheet or an open surface that a sheet can take, else milled; levels for its
 /// walls, rows for its floors; a tool that fits its concave areas.
-#[must_use]
-pub fn starter(part: &StarterPart<'_>) -> Starter {
+///
+/// # Errors
+/// A material that the table of cutting data does not have.
+pub fn starter(part: &StarterPart<'_>) -> Result<Starter, JobError> {
     let mut choice = choose(part);
     let tolerances = tolerances(part, &mut choice);
-    let text = text(part, &choice, tolerances);
-    Starter { text, reasons: choice.reasons }
+    let feeds = if choice.sheet.is_some() { feeds::forming(part) } else { feeds::milling(part, &choice.tool)? };
+    choice.reasons.extend(feeds.reason.clone());
+    let text = job(part, &choice, &feeds, tolerances);
+    Ok(Starter { text, reasons: choice.reasons })
 }
 
 /// Of the triangles and of the path, mm: a file whose edges lie off its surfaces is read no finer than that.
@@ -71,7 +71,8 @@ fn tolerances(part: &StarterPart<'_>, choice: &mut Choice) -> [f64; 2] {
     [needed, round(PATH_TOLERANCE + 2.0 * needed)]
 }
 
-fn text(part: &StarterPart<'_>, choice: &Choice, [part_tolerance, path_tolerance]: [f64; 2]) -> String {
+fn job(part: &StarterPart<'_>, choice: &Choice, feeds: &StarterFeeds, tolerances: [f64; 2]) -> String {
+    let [part_tolerance, path_tolerance] = tolerances;
     let stem = stem_of(part.file);
     let units = part.units.map_or(String::new(), |u| format!("units = {}\n", quoted(u)));
     let undercuts = if choice.allow_undercuts {
@@ -79,8 +80,12 @@ fn text(part: &StarterPart<'_>, choice: &Choice, [part_tolerance, path_tolerance
     } else {
         ""
     };
-    let operations: String =
-        choice.operations.iter().map(|work| operation(work, choice, path_tolerance)).collect::<Vec<_>>().join("\n");
+    let operations: String = choice
+        .operations
+        .iter()
+        .map(|work| operation(work, choice, feeds, path_tolerance))
+        .collect::<Vec<_>>()
+        .join("\n");
     format!(
         r#"# A StylusCAM job. Lengths are mm, angles degrees, feeds mm/min.
 # Run it: `styluscam run` and the name of this file.
@@ -95,12 +100,12 @@ file = {file}
 {faces}{undercuts}{model_face}tolerance = {part_tolerance}           # largest deviation of triangles from surfaces, checked
 
 {setup}
-{process}
+{process}{material}
 [tools.{tool}]
 number = 1
 reference = "tip"           # the point that the program moves
 profile = {{ kind = "{shape}", diameter = {diameter} }}   # or library = "{library}"; see `styluscam tool list`
-
+{edges}
 {operations}
 [machine]
 name = "linuxcnc"           # or "grbl"; see `styluscam machine list`
@@ -116,6 +121,8 @@ program = {program}
         model_face = model_face(choice),
         setup = setup(choice),
         process = process(choice),
+        material = feeds.process,
+        edges = feeds.tool,
         tool = tool_name(choice),
         shape = shape(choice),
         diameter = number(choice.tool.diameter),
@@ -202,26 +209,12 @@ fn shape(choice: &Choice) -> &'static str {
     }
 }
 
-fn operation(work: &Work, choice: &Choice, tolerance: f64) -> String {
-    let diameter = choice.tool.diameter;
+fn operation(work: &Work, choice: &Choice, feeds: &StarterFeeds, tolerance: f64) -> String {
     let faces = work.faces.as_ref().map_or(String::new(), |faces| format!("faces = {}\n", names(faces)));
     let Some((kind, about)) = Operation::ABOUT.iter().find(|(_, about)| about.serves == work.serves) else {
         return String::new(); // no kind serves that: a test holds the table to it
     };
     let distance = (about.starter)(StarterPasses { pitch: work.pitch, angle_deg: work.angle_deg });
-    let (feeds, spindle) = if choice.sheet.is_some() {
-        ([1500.0, 300.0], String::new())
-    } else {
-        let rpm = (CUTTING_SPEED / (std::f64::consts::PI * diameter)).clamp(SPEEDS[0], SPEEDS[1]);
-        let rpm = (rpm / 100.0).round() * 100.0;
-        let cut = ((FEED * diameter * rpm).clamp(FEEDS[0], FEEDS[1]) / 10.0).round() * 10.0;
-        let words = "# for aluminium: ask your tool's maker";
-        (
-            [cut, (0.03 * cut).round() * 10.0],
-            format!("spindle = {{ mode = \"fixed\", rpm = {} }}   {words}\n", number(rpm)),
-        )
-    };
-    let [cut, plunge] = feeds.map(number);
     format!(
         r#"[[operations]]
 id = "{}"
@@ -230,13 +223,13 @@ kind = "{kind}"            # {kinds}
 {distance}direction = "alternate"     # or "same", "climb", "conventional"
 tolerance = {}           # the posted path lies at most this far above the exact one
 smallest_feature = {}     # no loop is missed that holds a disc of this diameter
-feeds = {{ cut = {cut}, plunge = {plunge} }}
-{spindle}"#,
+{feeds}"#,
         work.id,
         tool_name(choice),
         number(tolerance),
         number(smallest_feature(choice)),
         kinds = kinds(),
+        feeds = feeds.operation,
     )
 }
 
@@ -261,21 +254,6 @@ fn names(faces: &[u32]) -> String {
     }
     let lines: Vec<String> = names.chunks(10).map(|line| format!("    {},\n", line.join(", "))).collect();
     format!("[\n{}]", lines.concat())
-}
-
-/// A sentence as a comment's lines.
-fn wrapped(reason: &str) -> String {
-    let mut lines = vec![String::from("# -")];
-    for word in reason.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(format!("#   {word}")),
-        }
-    }
-    lines.join("\n") + "\n"
 }
 
 /// The faces as they slope with the tool's side up.
@@ -313,13 +291,4 @@ fn described(face: &StarterFace) -> String {
 fn stem_of(file: &str) -> String {
     let stem = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
     stem.chars().map(|c| if c.is_control() { '_' } else { c }).collect()
-}
-
-/// A TOML string.
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
-}
-
-fn number(value: f64) -> String {
-    format!("{value:?}")
 }

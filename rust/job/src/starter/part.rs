@@ -2,6 +2,8 @@
 
 use styluscam_geometry::Mesh;
 
+use crate::cutting::CuttingTable;
+
 /// What a starter job is written for.
 pub struct StarterPart<'a> {
     /// The part's file, as the job should name it.
@@ -14,6 +16,12 @@ pub struct StarterPart<'a> {
     pub faces: &'a [StarterFace],
     /// How far the file's own edges lie off its surfaces at most, mm.
     pub edge_gap: f64,
+    /// What it is made of, where that is stated: by its name among the materials of the table, or of sheets.
+    pub material: Option<&'a str>,
+    /// Cutting data.
+    pub table: &'a CuttingTable,
+    /// The file with the shop's own part of them, as the job should name it.
+    pub cutting_data: Option<&'a str>,
 }
 
 /// A face as the job's comment lists it.
