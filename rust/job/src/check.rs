@@ -5,7 +5,7 @@ use styluscam_verify::Support;
 
 use crate::fixture::FixtureSection;
 use crate::process::Opposite;
-use crate::resolve::check_channels;
+use crate::resolve::{check_channels, check_stock};
 use crate::{
     clamp,
     operations::{Fit, LinkHeight},
@@ -21,6 +21,7 @@ pub fn document(job: &JobDocument) -> Result<(), JobError> {
     }
     setup(job)?;
     process(&job.process)?;
+    check_stock(job)?;
     crate::shaping::check(job)?;
     machine("machine", &job.machine)?;
     for (channel, section) in &job.machines {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
+use styluscam_geometry::{Bvh, Mesh, Sheet, Stock, Tool};
 use styluscam_motion::{Cornering, FeedRounding, MachineMove, Program};
 
 use crate::expectation::ExpectedOperation;
@@ -19,6 +19,8 @@ pub struct Subject<'a> {
     pub tools: &'a [Tool],
     /// The sheet between tool and part, when there is one.
     pub sheet: Option<Sheet>,
+    /// What the part is cut from, where it is.
+    pub stock: Option<&'a Stock>,
     /// How far the triangles lie inside the true surface at most, mm: taken off every clearance
     /// before it is checked as a gouge.
     pub deviation_inward: f64,

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::Stock;
 use styluscam_motion::{Arc, Move, MoveKind, Role};
 use styluscam_toolpath::forming::{levels, selected_range, with_levels_at, z_levels, Floors, Grid, LevelRange};
 use styluscam_toolpath::offset::Envelope;
@@ -45,7 +46,7 @@ const CORNERS: f64 = 2.5 * std::f64::consts::PI / 180.0;
 const LEAST: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-/// Stock is the part's box, as high as the part, or what the operations before leave of it.
+/// Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pocket {
@@ -84,8 +85,8 @@ pub struct Pocket {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-example" = "{ x = 10.0, y = 8.0, diameter = 6.0 }"))]
     pub entry_hole: Option<EntryHole>,
-    /// Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
-    /// is stock.
+    /// Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else all of
+    /// the stock.
     #[serde(default)]
     pub rest_machining: bool,
     /// Angle of helices and ramps down into the material, degrees.
@@ -235,10 +236,10 @@ impl OperationKind for Pocket {
     }
 
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
-        if context.scene.sheet.is_some() {
+        let Some(stock) = &context.scene.stock else {
             let message = "a pocket is cut from stock, and this job forms a sheet";
             return Err(JobError::document("conflict", context.path.clone(), message, "remove setup.sheet"));
-        }
+        };
         if context.region.check.is_some() {
             let message = "part.check_faces are not kept away from by a pocket";
             return Err(JobError::document("conflict", context.path.clone(), message, "remove part.check_faces"));
@@ -261,7 +262,7 @@ impl OperationKind for Pocket {
         let mut cleared = Cleared::default();
         for (layer, outlines) in &layers {
             let before = cleared.areas;
-            self.clear(context, (&surface, *layer), outlines, &mut cleared)?;
+            self.clear(context, (&surface, stock, *layer), outlines, &mut cleared)?;
             cleared.levels += usize::from(cleared.areas > before);
         }
         if cleared.moves.is_empty() {
@@ -381,15 +382,15 @@ impl Pocket {
     fn clear(
         &self,
         context: &Context<'_>,
-        (surface, [top, floor]): (&Surface<'_>, Depth),
+        (surface, stock, [top, floor]): (&Surface<'_>, &Stock, Depth),
         outlines: &[Vec<[f64; 3]>],
         cleared: &mut Cleared,
     ) -> Result<(), JobError> {
         let Context { scene, common, machine, tool, reference_height, operation, watch, .. } = *context;
         let radius = tool.cutter().at_height(top - floor).0;
         let hole = self.entry_hole.map(EntryHole::outline);
-        let stock: Vec<Vec<[f64; 3]>> = std::iter::once(box_around(scene, 0.0)).chain(hole).collect();
-        let air = box_around(scene, BEYOND * tool.diameter());
+        let air = box_around(stock, BEYOND * tool.diameter());
+        let stock: Vec<Vec<[f64; 3]>> = stock.outlines_between([top, floor]).iter().cloned().chain(hole).collect();
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
         let direction = sense(common, true);
         // in programs that lean arcs become lines, and their chords turn the heading
@@ -518,9 +519,9 @@ fn with_last_layers(mut heights: Vec<f64>, top: f64, thickness: f64, floors: &[(
     heights
 }
 
-/// The outline of the part's box in plan, `by` mm larger on all sides.
-fn box_around(scene: &crate::Scene, by: f64) -> Vec<[f64; 3]> {
-    let (low, high) = scene.mesh.bounds();
+/// The outline of the stock's box in plan, `by` mm larger on all sides.
+fn box_around(stock: &Stock, by: f64) -> Vec<[f64; 3]> {
+    let (low, high) = stock.bounds();
     let [x0, y0, x1, y1] = [low.x - by, low.y - by, high.x + by, high.y + by];
     vec![[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]]
 }

@@ -57,6 +57,7 @@ impl Part {
             bvh: &self.bvh,
             tools,
             sheet: None,
+            stock: None,
             deviation_inward: 0.0,
             deviation_outward: 0.0,
             wcs: "G54",

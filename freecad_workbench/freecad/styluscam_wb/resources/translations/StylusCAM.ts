@@ -310,7 +310,7 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it.
+Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
 is a cylinder or a cone, with a flat end or a round one.</source>
         <translation type="unfinished"></translation>
@@ -465,6 +465,12 @@ Range: 0.8 to 1</source>
         <source>What lies under the sheet.
 male: The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
 female: The part is formed into it from inside; the sheet is clamped at its rim.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the part is cut from; its box when left out.
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -762,7 +768,7 @@ Range: 0 to 80 deg</source>
     </message>
     <message>
         <source>Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it.</source>
+Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1555,7 +1561,7 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it.
+Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
 is a cylinder or a cone, with a flat end or a round one.</source>
         <translation type="unfinished"></translation>
@@ -1962,6 +1968,10 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Stock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Stock that stays on the surface, mm along its normals.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
@@ -2329,6 +2339,12 @@ Range: 0.8 to 1</source>
         <source>What lies under the sheet.
 male: The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
 female: The part is formed into it from inside; the sheet is clamped at its rim.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the part is cut from; its box when left out.
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
