@@ -435,6 +435,10 @@ fn expectation(
         // what leaning tools owe their faces is measured along them
         selected: scene.facing_up(if section.kind().leans() { &[] } else { &faces }),
         region: region_of(job, scene, section, index, &faces)?.expected(),
+        to_leave: match section.kind().contact() {
+            Contact::Touch => section.common.stock_to_leave(),
+            Contact::Clear => [0.0; 2], // they keep away from what is to stay
+        },
         heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
         passes: if scene.opposite.is_some() {
             Passes::Unordered { reason: "they are opposite to the main tool's, whose program is checked for them" }

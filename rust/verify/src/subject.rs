@@ -5,6 +5,7 @@ use std::ops::Range;
 use styluscam_geometry::{Bvh, Mesh, Sheet, Stock, Tool};
 use styluscam_motion::{Cornering, FeedRounding, MachineMove, Program};
 
+use crate::body::Body;
 use crate::expectation::ExpectedOperation;
 use crate::findings::{FindingKind, Severity};
 
@@ -267,6 +268,12 @@ pub struct Reach {
 }
 
 impl Subject<'_> {
+    /// An operation's tool as a body, with its sheet and the stock around it that it is to leave.
+    pub(crate) fn touching(&self, operation: &ExpectedOperation) -> Option<Body> {
+        let tool = self.tools.get(operation.tool)?;
+        Some(Body::leaving(tool, self.sheet.as_ref(), operation.expectation.to_leave))
+    }
+
     /// Whether a move's end is known.
     pub(crate) fn is_known(&self, index: usize) -> bool {
         run_of(self.unknown_positions, index).is_none()
