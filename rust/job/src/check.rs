@@ -300,7 +300,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
 
 /// Stock is left on what is cut.
 fn stock_to_leave(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobError> {
-    if !job.process.process.as_kind().takes_sheet() || common.stock_to_leave() == [0.0; 2] {
+    if !job.process.process.as_kind().takes_sheet() || !common.leaves_stock() {
         return Ok(());
     }
     let message = "stock is left on a part that is cut, and this job forms a sheet";

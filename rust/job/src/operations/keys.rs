@@ -170,6 +170,12 @@ impl OperationKeys {
         [self.radial_stock_to_leave, self.axial_stock_to_leave]
     }
 
+    /// Whether any stays.
+    #[must_use]
+    pub fn leaves_stock(&self) -> bool {
+        self.stock_to_leave().iter().any(|left| *left > 0.0)
+    }
+
     /// Largest angle by which the path is to turn from one cutting move to the next, rad; infinite where it is not limited.
     #[must_use]
     pub fn corner(&self) -> f64 {

@@ -190,7 +190,7 @@ impl OperationKind for Pocket {
             let message = format!("engagement_deg and growth_deg come to {sum} degrees, and at most 90 are held");
             return Err(JobError::document("conflict", format!("{path}.growth_deg"), message, "lower either"));
         }
-        if self.finish && common.stock_to_leave() == [0.0; 2] {
+        if self.finish && !common.leaves_stock() {
             let message = "finish takes the stock to leave, and there is none";
             let hint = "set radial_stock_to_leave, axial_stock_to_leave or both, mm, or remove finish";
             return Err(JobError::document("conflict", format!("{path}.finish"), message, hint));

@@ -373,12 +373,12 @@ Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
+        <source>Stock that stays on walls, mm, measured across them in plan; a pocket with `finish` takes it last.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
+        <source>Stock that stays under the tool, on floors and slopes, mm in height; a pocket with `finish` takes it last.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1977,12 +1977,12 @@ Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
+        <source>Stock that stays on walls, mm, measured across them in plan; a pocket with `finish` takes it last.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
+        <source>Stock that stays under the tool, on floors and slopes, mm in height; a pocket with `finish` takes it last.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
