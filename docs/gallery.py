@@ -115,7 +115,7 @@ EXAMPLES = (
     Example(
         "pocket",
         "Pocket with a bounded engagement angle",
-        "`pocket`: clears the stock, the part's box, level by level, down by helices. Milling.",
+        "`pocket`: clears the stock, here the part's box, level by level, down by helices. Milling.",
         "pyramid",
         {"kind": "pocket", "step": {"height": 8.0}, "engagement_deg": 75.0, "fit": "arcs", "tolerance": 0.02},
         process={"kind": "milling"},

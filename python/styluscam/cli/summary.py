@@ -25,6 +25,7 @@ def lines_of(summary: Summary, job: Document) -> list[tuple[str, str]]:
         ("zero", summary.zero),
         ("work offset", summary.wcs),
         ("part box", _box(summary)),
+        *([("stock", summary.stock)] if summary.stock else []),
         ("deepest Z", f"{summary.deepest_z:.3f}"),
         *(("tool", _tool(tool)) for tool in summary.tools),
         *_sheet(job),

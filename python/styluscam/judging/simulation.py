@@ -201,7 +201,7 @@ def simulate(
 
     Without one they are 0.05 mm apart, on parts larger than 200 x 200 mm as much farther as keeps their number.
 
-    Milling begins with the part's box. The tool's profile cuts as it passes, exactly at the nodes; shank and holder do not.
+    Milling begins with the job's stock. The tool's profile cuts as it passes, exactly at the nodes; shank and holder do not.
     A sheet begins flat and follows the tool: the face that the tool touches is the lowest that the tool was, ``face``
     ("tool", "mid", "back"; the part's if None) its offset by the sheet's law. That is kinematics: nothing springs back or
     wrinkles, and where the tool was not the sheet stays as flat as it was, also within a formed loop.

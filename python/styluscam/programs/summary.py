@@ -141,6 +141,7 @@ class Summary(Record):
         zero: the zero point, in words.
         wcs: the work offset.
         part_min, part_max: corners of the part's box, work coordinates.
+        stock: the stock, in words; None where the job states none.
         deepest_z: lowest posted coordinate at feed, of the programmed point.
         machine: its name.
         units: ``mm`` or ``inch``: of the text.
@@ -160,6 +161,7 @@ class Summary(Record):
     wcs: str
     part_min: list[float]
     part_max: list[float]
+    stock: str | None
     deepest_z: float
     machine: str
     units: str

@@ -144,6 +144,8 @@ pub struct Tool {
     document: ToolDocument,
     profile: Profile,
     report: ProfileReport,
+    /// Stock around it that it is to leave, across walls in plan and in height, mm.
+    left: [f64; 2],
 }
 
 impl Tool {
@@ -175,7 +177,20 @@ impl Tool {
                 ));
             }
         }
-        Ok(Self { document, profile, report })
+        Ok(Self { document, profile, report, left: [0.0; 2] })
+    }
+
+    /// The same with the stock around it that it is to leave on the part: so far across walls in plan, and so much in height, mm, not
+    /// negative. What touches the part is wider by a level disc and lies lower; the tip stays where it is.
+    #[must_use]
+    pub fn leaving(&self, left: [f64; 2]) -> Self {
+        let widened = self.profile.clone().widened(left[0]);
+        Self { profile: widened, left: [0, 1].map(|i| self.left[i] + left[i]), ..self.clone() }
+    }
+
+    /// Stock around it that it is to leave, across walls in plan and in height, mm.
+    pub(crate) fn left(&self) -> [f64; 2] {
+        self.left
     }
 
     /// What it was built from.
@@ -196,10 +211,11 @@ impl Tool {
         &self.report
     }
 
-    /// Radius and height of the bare tool at a slope, mm; the outer end of a straight part, the rim beyond the last slope.
+    /// Radius and height over the tip of the tool without a sheet at a slope, mm; the outer end of a straight part, the rim beyond the last slope.
     #[must_use]
     pub fn point_at(&self, slope: f64) -> (f64, f64) {
-        self.profile.point_at(slope)
+        let (radius, height) = self.profile.point_at(slope);
+        (radius, height - self.left[1])
     }
 
     /// The bare tool as a cutter.
@@ -219,8 +235,8 @@ impl Tool {
 
     /// Height of the tool's tip over the tip of [`cutter_with`](Self::cutter_with), mm.
     #[must_use]
-    pub fn tip_above(sheet: Option<&Sheet>, margin: f64) -> f64 {
-        sheet.map_or(0.0, Sheet::raise) + margin
+    pub fn tip_above(&self, sheet: Option<&Sheet>, margin: f64) -> f64 {
+        sheet.map_or(0.0, Sheet::raise) + margin + self.left[1]
     }
 
     /// Height of the sphere's centre over the tip, mm; only a ball without a flat has one.
@@ -308,6 +324,28 @@ mod tests {
             let tool = tool(&format!(r#"{{"profile": {{{kind}}}}}"#)).unwrap();
             assert_eq!(tool.diameter().to_bits(), 7.3_f64.to_bits(), "{kind}");
             assert!(tool.cutter().height_at_radius(3.65).is_finite(), "{kind}");
+        }
+    }
+
+    #[test]
+    fn stock_to_leave_is_a_disc_around_the_tool_and_a_height_under_it() {
+        for kind in [
+            r#""kind": "ball", "diameter": 6.0"#,
+            r#""kind": "flat", "diameter": 6.0"#,
+            r#""kind": "v", "tip_diameter": 0.0, "angle_deg": 90.0, "diameter": 6.0"#,
+            r#""kind": "clothoid", "diameter": 6.0, "tip_flat": 0.5"#,
+        ] {
+            let tool = tool(&format!(r#"{{"profile": {{{kind}}}}}"#)).unwrap();
+            let wide = tool.leaving([0.3, 0.2]);
+            for slope in [0.0, 0.1, 0.7, 1.2, 1.5] {
+                let support = |(r, z): (f64, f64)| r * libm::sin(slope) - z * libm::cos(slope);
+                let more = 0.3 * libm::sin(slope) + 0.2 * libm::cos(slope);
+                let [bare, around] = [&tool, &wide].map(|tool| support(tool.point_at(slope)));
+                assert!((around - bare - more).abs() < 1e-12, "{kind} {slope}");
+            }
+            let body = wide.body(None);
+            assert!((body.tip_above() - 0.2).abs() < 1e-12 && (body.max_radius() - 3.3).abs() < 1e-12);
+            assert!(body.straights()[0].inner == (0.0, 0.0) && body.as_ball().is_none());
         }
     }
 }

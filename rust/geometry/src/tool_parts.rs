@@ -19,7 +19,7 @@ impl Tool {
     /// The profile with the sheet as one solid: what must not enter the model.
     #[must_use]
     pub fn body(&self, sheet: Option<&Sheet>) -> ToolBody {
-        with_sheet(self.profile(), sheet, 0.0)
+        with_sheet(self.profile(), sheet, -self.left()[1])
     }
 
     /// The solids above the profile that are wider than it, with the sheet; the profile's own is its base's cylinder upwards.
@@ -28,7 +28,8 @@ impl Tool {
     #[must_use]
     pub fn bodies_above(&self, sheet: Option<&Sheet>) -> Vec<(ToolPart, ToolBody)> {
         let document = self.document();
-        let (radius, rim) = self.profile().base();
+        let (wide, rim) = self.profile().base();
+        let radius = wide - self.left()[0];
         let mut bodies = Vec::new();
         if let Some(diameter) = document.shank_diameter.filter(|d| *d > 2.0 * radius) {
             let (height, cone) = match document.base {
@@ -67,7 +68,7 @@ fn standing(profile: &ProfileDocument, sheet: Option<&Sheet>, height: f64) -> Op
 
 fn with_sheet(profile: &Profile, sheet: Option<&Sheet>, height: f64) -> ToolBody {
     let ball = sheet.map_or(0.0, Sheet::along_normal);
-    ToolBody::new(profile, ball).with_tip_above(Tool::tip_above(sheet, 0.0) - height)
+    ToolBody::new(profile, ball).with_tip_above(sheet.map_or(0.0, Sheet::raise) - height)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use styluscam_verify::Support;
 use crate::cutting::CuttingTable;
 use crate::fixture::FixtureSection;
 use crate::process::Opposite;
-use crate::resolve::check_channels;
+use crate::resolve::{check_channels, check_stock};
 use crate::{
     clamp,
     operations::{Fit, LinkHeight},
@@ -22,6 +22,7 @@ pub fn document(job: &JobDocument) -> Result<(), JobError> {
     }
     setup(job)?;
     process(&job.process)?;
+    check_stock(job)?;
     crate::shaping::check(job)?;
     machine("machine", &job.machine)?;
     for (channel, section) in &job.machines {
@@ -301,8 +302,19 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     layers(job, path, section)?;
     order(job, path, section)?;
     corners(job, path, section)?;
+    stock_to_leave(job, path, common)?;
     spindle::check(section, path)?;
     section.kind().check(common, path)
+}
+
+/// Stock is left on what is cut.
+fn stock_to_leave(job: &JobDocument, path: &str, common: &OperationKeys) -> Result<(), JobError> {
+    if !job.process.process.as_kind().takes_sheet() || !common.leaves_stock() {
+        return Ok(());
+    }
+    let message = "stock is left on a part that is cut, and this job forms a sheet";
+    let hint = "remove radial_stock_to_leave and axial_stock_to_leave";
+    Err(JobError::document("conflict", format!("{path}.radial_stock_to_leave"), message, hint))
 }
 
 /// A clearance is that of check faces, and rapids keep it too.

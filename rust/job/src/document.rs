@@ -13,7 +13,7 @@ use styluscam_motion::ToolReference;
 use crate::selection::CheckSelection;
 use crate::{
     AddendumSection, Chuck, FixtureSection, OperationSection, ProcessSection, Risk, Selection, SpringbackSection,
-    Stages, Units, UpAxis,
+    Stages, StockSection, Units, UpAxis,
 };
 
 /// A whole job: from a part's faces to a machine's program.
@@ -135,7 +135,7 @@ pub struct SetupSection {
     pub zero: Option<Zero>,
     /// Work offset.
     pub wcs: String,
-    /// Height above the part's (or the sheet's) highest point at which rapids cross it, mm.
+    /// Height above the stock's (or the sheet's) highest point at which rapids cross it, mm.
     #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     pub clearance: f64,
     /// Height above that point down to which rapids go before a plunge, mm.
@@ -145,6 +145,10 @@ pub struct SetupSection {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-example" = "{ thickness = 1.0 }"))]
     pub sheet: Option<SheetSection>,
+    /// What the part is cut from; its box when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ kind = \"box\", sides = 2.0, top = 1.0 }"))]
+    pub stock: Option<StockSection>,
     /// What holds it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-takes-sheet" = true, "x-advanced" = true, "x-example" = "{ clamp = { opening = [200.0, 150.0], height = 8.0 } }"))]
@@ -162,6 +166,7 @@ impl Default for SetupSection {
             clearance: 10.0,
             retract: 2.0,
             sheet: None,
+            stock: None,
             fixture: None,
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
 use serde::Serialize;
-use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Tool, Vector};
+use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Stock, Tool, Vector};
 use styluscam_motion::{Program, ToolRecord, Watch};
 use styluscam_post::machine::{Rapids, ToolChange};
 use styluscam_post::{read, Machine};
@@ -80,6 +80,7 @@ impl<'a> Against<'a> {
             bvh: &self.scene.bvh,
             tools: &self.tools,
             sheet: self.scene.sheet,
+            stock: self.scene.stock.as_ref(),
             deviation_inward: self.scene.inward,
             deviation_outward: self.scene.outward,
             wcs: self.wcs,
@@ -345,7 +346,7 @@ pub fn needs(
     Ok(styluscam_verify::needs(judgement.seen(), &subject, &judgement.limits, points, watch)?)
 }
 
-/// What a checked program makes of the stock: the part's box, or the sheet's blank, of which `face` is followed.
+/// What a checked program makes of the stock, or of the sheet's blank, of which `face` is followed.
 ///
 /// # Errors
 /// A spacing that asks for too many nodes, tools that do not build, `Cancelled`.
@@ -360,7 +361,7 @@ pub fn simulate(
     let against = Against::new(job, scene)?;
     let sheet = scene.sheet.map(|sheet| Sheet { model_face: face.unwrap_or(sheet.model_face), ..sheet });
     let subject = Subject { sheet, ..against.subject(&judgement.unknown_positions) };
-    let (low, high) = scene.mesh.bounds();
+    let (low, high) = scene.stock.as_ref().map_or(scene.mesh.bounds(), Stock::bounds);
     let under = sheet.map_or(0.0, |sheet| sheet.raise());
     let grid = Grid::over([low.x, low.y], [high.x, high.y], spacing).map_err(JobError::geometry("spacing"))?;
     let top = scene.top - under;
@@ -434,6 +435,10 @@ fn expectation(
         // what leaning tools owe their faces is measured along them
         selected: scene.facing_up(if section.kind().leans() { &[] } else { &faces }),
         region: region_of(job, scene, section, index, &faces)?.expected(),
+        to_leave: match section.kind().contact() {
+            Contact::Touch => section.common.stock_to_leave(),
+            Contact::Clear => [0.0; 2], // they keep away from what is to stay
+        },
         heights: [heights.bottom, heights.top.unwrap_or(f64::INFINITY)],
         passes: if scene.opposite.is_some() {
             Passes::Unordered { reason: "they are opposite to the main tool's, whose program is checked for them" }

@@ -42,6 +42,7 @@ mod shapes;
 mod shaping;
 mod spindle;
 mod starter;
+mod stock;
 mod stopped;
 mod summary;
 mod tagged;
@@ -86,6 +87,7 @@ pub use shaping::{
     is_shaped, shaped, AddendumEnd, AddendumKind, AddendumSection, Deviation, MeshPair, SpringbackSection, Stages,
 };
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};
+pub use stock::{BoxStock, CylinderStock, StockSection};
 pub use summary::Summary;
 pub use up_axis::UpAxis;
 

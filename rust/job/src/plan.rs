@@ -56,13 +56,14 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             tools.get(&section.common.tool).ok_or_else(|| check::no_tool(job, &path, &section.common.tool))?;
         let faces = faces_of(job, scene, section, index)?;
         check_part(job, (scene, &faces), tool, section, index)?;
+        let touching = section.touching(tool);
         let context = Context {
             scene,
             machine,
             common: &section.common,
             path,
             operation: channel.operations.len() as u32,
-            tool,
+            tool: &touching,
             reference_height: record.reference_height,
             region: region_of(job, scene, section, index, &faces)?,
             faces,

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
-use styluscam_geometry::{Bvh, Frame, Mesh, Sheet};
+use styluscam_geometry::{Bvh, Frame, Mesh, Sheet, Stock};
 use styluscam_toolpath::offset::Index;
 
 use crate::faces::FaceView;
@@ -33,7 +33,11 @@ pub struct Scene {
     /// Of a tool that comes from the other side of the sheet: the sheet left between it and the main tool, mm, by the sheet's law
     /// along the normal or the vertical.
     pub opposite: Option<f64>,
-    /// The highest point of part and sheet, mm.
+    /// What the part is cut from; none where a sheet is formed.
+    pub stock: Option<Stock>,
+    /// The stock in words, where the job states it.
+    pub(crate) stock_words: Option<String>,
+    /// The highest point of stock and sheet, mm.
     pub top: f64,
     /// Height of the flat sheet's face that the tool comes to, mm; of the part's top without a sheet.
     pub flat: f64,

@@ -20,6 +20,8 @@ pub struct Summary {
     pub part_min: [f64; 3],
     /// Upper corner.
     pub part_max: [f64; 3],
+    /// The stock, in words; none where the job states none.
+    pub stock: Option<String>,
     /// Lowest posted coordinate at feed (of the reference point).
     pub deepest_z: f64,
     /// The machine.
@@ -83,6 +85,7 @@ impl Summary {
             wcs: program.setup.wcs.clone(),
             part_min: program.setup.part_min,
             part_max: program.setup.part_max,
+            stock: scene.stock_words.clone(),
             deepest_z: statistics.lowest + if lift.is_finite() { lift } else { 0.0 },
             machine: machine.name.clone(),
             units: if machine.units.output == LengthUnit::Mm { "mm" } else { "inch" }.to_owned(),
@@ -102,7 +105,8 @@ impl Summary {
     /// Lines for the program's header: what the set-up record does not say by itself.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        let mut notes: Vec<String> = self.changes.iter().map(|change| change.words.clone()).collect();
+        let stock = self.stock.iter().map(|words| format!("stock: {words}"));
+        let mut notes: Vec<String> = stock.chain(self.changes.iter().map(|change| change.words.clone())).collect();
         for operation in &self.operations {
             notes.extend(operation.notes());
         }

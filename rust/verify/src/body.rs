@@ -12,6 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 use styluscam_geometry::{Sheet, Tool, ToolBody, Vector};
 
 use crate::convex::Tangent;
+use crate::solid::Solid;
 
 /// Cells of the support table. A chord over one of 4096 is less than 1e-7 of the tool's radius above the function.
 const CELLS: usize = 4096;
@@ -35,7 +36,7 @@ const SHORT: f64 = 1e-5;
 /// The convex body that must not enter the triangles. Its tip is the origin of what it is asked.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
-    solid: ToolBody,
+    solid: Solid,
     supports: Vec<f64>,
     planes: Vec<Tangency>,
     /// For squares of the half plane about the meridian, the plane of the table that separates their middle best.
@@ -90,8 +91,17 @@ impl Body {
         Self::of(tool.body(sheet))
     }
 
+    /// Tool and sheet, with the stock around them that is to be left, across walls in plan and in height, mm.
+    pub fn leaving(tool: &Tool, sheet: Option<&Sheet>, left: [f64; 2]) -> Self {
+        Self::of_solid(Solid::new(tool.body(sheet), left))
+    }
+
     /// A solid of a tool with the tables by which it is checked.
     pub fn of(solid: ToolBody) -> Self {
+        Self::of_solid(Solid::new(solid, [0.0; 2]))
+    }
+
+    fn of_solid(solid: Solid) -> Self {
         let supports = (0..=CELLS).map(|i| support_at(&solid, i)).collect();
         let mut planes: Vec<_> = (0..=PLANES).map(|i| Tangency::at(&solid, plane_root(i))).collect();
         // both ends of a straight part: between them the plane stays and the position jumps
@@ -327,7 +337,7 @@ fn of_ball(ball: f64, p: Vector, radius: f64) -> Distance {
 }
 
 impl Tangency {
-    fn at(solid: &ToolBody, root: f64) -> Self {
+    fn at(solid: &Solid, root: f64) -> Self {
         let slope = root * root;
         let (sin, cos) = libm::sincos(slope);
         let (radius, height) = solid.point_at(slope);
@@ -372,7 +382,7 @@ pub(crate) fn length(x: f64, y: f64) -> f64 {
 }
 
 /// Support along the direction i / CELLS outwards and the rest downwards.
-fn support_at(solid: &ToolBody, i: usize) -> f64 {
+fn support_at(solid: &Solid, i: usize) -> f64 {
     let steep = i as f64 / CELLS as f64;
     let fall = 1.0 - steep;
     let (radius, height) = solid.point_at(libm::atan2(steep, fall));

@@ -240,13 +240,13 @@ impl Sweeps {
     /// Those of `segments` that are meant to touch.
     pub fn of_all(segments: &[Segment], subject: &Subject) -> Self {
         let contacts: Vec<&Segment> = segments.iter().filter(|segment| segment.kind == SegmentKind::Lateral).collect();
-        Self::of(&contacts, subject)
+        Self::of(&contacts, subject, [0.0; 2])
     }
 
-    /// Of moves that are meant to touch.
-    pub fn of(contacts: &[&Segment], subject: &Subject) -> Self {
+    /// Of moves that are meant to touch, but for so much stock that is to be left across walls in plan and in height, mm.
+    pub fn of(contacts: &[&Segment], subject: &Subject, to_leave: [f64; 2]) -> Self {
         let tools = subject.tools.iter().enumerate().map(|(number, tool)| {
-            let body = Body::new(tool, subject.sheet.as_ref());
+            let body = Body::leaving(tool, subject.sheet.as_ref(), to_leave);
             let own = contacts.iter().enumerate().filter(|(_, segment)| segment.tool == Some(number));
             let pieces = own.flat_map(|(segment, whole)| whole.pieces().map(move |piece| (segment, piece)));
             let strokes = pieces.flat_map(|(segment, piece)| {

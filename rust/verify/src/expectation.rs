@@ -49,6 +49,8 @@ pub struct Expectation {
     pub selected: Vec<bool>,
     /// Where its contacts lie beyond that.
     pub region: Region,
+    /// Stock that is to stay between the tool and what it touches, across walls in plan and in height, mm.
+    pub to_leave: [f64; 2],
     /// Lowest and highest tip that it is to reach, mm.
     pub heights: [f64; 2],
     /// How its passes lie.

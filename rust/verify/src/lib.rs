@@ -76,6 +76,7 @@ mod segments;
 mod sequence;
 mod settings;
 mod simulation;
+mod solid;
 mod stroke;
 mod subject;
 mod sweep;

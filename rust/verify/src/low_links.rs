@@ -1,7 +1,7 @@
 //! Rapids below the clearance height, where the job allows them: they keep a margin above what stands.
 //!
 //! The part, with its sheet, is measured exactly along the move, the tool lowered by the margin. What is not formed yet is the
-//! sheet as it stands ([`crate::blank`]), checked with the punches; what is not cut yet is stock as high as the part.
+//! sheet as it stands ([`crate::blank`]), checked with the punches; what is not cut yet is stock.
 
 use rayon::prelude::*;
 use styluscam_motion::{Cancelled, Watch};
@@ -37,7 +37,7 @@ pub(crate) fn faults(
     watch: &Watch,
 ) -> Result<Vec<Fault>, Cancelled> {
     let bodies: Vec<Body> = subject.tools.iter().map(|tool| Body::new(tool, subject.sheet.as_ref())).collect();
-    let stock = limits.forming.is_none().then(|| subject.mesh.bounds().1.z);
+    let stock = subject.stock.map(|stock| stock.top);
     let fault = |segment: &Segment| {
         watch.advance(0)?;
         let Some((margin, body)) = margin(segment, assignment, limits).zip(segment.tool.and_then(|t| bodies.get(t)))

@@ -8,6 +8,7 @@ use styluscam_motion::{ArcPath, Cancelled, Watch};
 
 use crate::body::Body;
 use crate::clearance::{Prober, Touch};
+use crate::expectation::ExpectedOperation;
 use crate::frame::Frame;
 use crate::holding::{colliders, Collider};
 use crate::region_faults::Regions;
@@ -51,11 +52,16 @@ pub(crate) fn measure(
         |tool| Bodies { profile: Body::new(tool, subject.sheet.as_ref()), colliders: colliders(tool, subject, least) };
     let bodies: Vec<Bodies> = subject.tools.iter().map(bodies).collect();
     let top = subject.mesh.bounds().1.z;
+    let leaving = |operation: &ExpectedOperation| {
+        let leaves = operation.expectation.to_leave.iter().any(|left| *left > 0.0);
+        subject.touching(operation).filter(|_| leaves)
+    };
+    let leaving: Vec<Option<Body>> = subject.expected.iter().map(leaving).collect();
     let regions = Regions::of(subject);
     let rule = Rule::new(segments, subject, limits, &regions);
     let chunks: Vec<&[Segment]> = segments.chunks(CHUNK).collect();
     let tallies = chunks.par_iter().zip(contacts_before(&chunks)).map(|(chunk, mut ordinal)| {
-        let mut walk = Walk { subject, limits, frame, bodies: &bodies, top, last: None };
+        let mut walk = Walk { subject, limits, frame, bodies: &bodies, leaving: &leaving, top, last: None };
         let mut tally = Tally::default();
         for segment in *chunk {
             for piece in segment.pieces() {
@@ -90,10 +96,12 @@ struct Walk<'a> {
     limits: &'a Limits,
     frame: Option<&'a Frame>,
     bodies: &'a [Bodies<'a>],
+    /// Of each operation that leaves stock, its tool with that around it.
+    leaving: &'a [Option<Body>],
     /// Height of the part's highest point.
     top: f64,
-    /// The last sample and its tool.
-    last: Option<(usize, Sample)>,
+    /// The last sample, its tool and its operation.
+    last: Option<((usize, Option<usize>), Sample)>,
 }
 
 impl<'a> Walk<'a> {
@@ -101,12 +109,20 @@ impl<'a> Walk<'a> {
         let Some((tool, bodies)) = segment.tool.and_then(|t| Some((t, self.bodies.get(t)?))) else {
             return Measured::default();
         };
-        let prober = self.prober(&bodies.profile);
-        let found = match segment.bend {
+        let around = self.leaving_of(segment, tool);
+        let prober = self.prober(around.unwrap_or(&bodies.profile));
+        let tool = (tool, segment.expected);
+        let mut found = match segment.bend {
             Some(bend) => self.along_bend(segment, &bend, tool, &prober),
             None if segment.excess.is_some() => self.along_contact(segment, tool, &prober),
             None => self.along_air(segment, &prober),
         };
+        if around.is_some() {
+            // no tool is deeper than with the stock around it
+            found.taken = found.deepest.take().filter(|sample| sample.touch.value < self.gouge_level());
+            found.deepest =
+                found.taken.and_then(|_| deepest_of(segment, self.gouge_level(), &self.prober(&bodies.profile)));
+        }
         let colliders = bodies
             .colliders
             .iter()
@@ -114,6 +130,13 @@ impl<'a> Walk<'a> {
         let strikes = colliders.filter_map(|collider| self.strike(segment, collider));
         let room = |strike: &Strike| strike.sample.touch.value - strike.least;
         Measured { struck: strikes.min_by(|a, b| room(a).total_cmp(&room(b))), ..found }
+    }
+
+    /// The tool of a segment with the stock around it that it is to leave; none where it leaves none, and of rapids.
+    fn leaving_of(&self, segment: &Segment, tool: usize) -> Option<&'a Body> {
+        let number = segment.expected.filter(|_| segment.kind != SegmentKind::Rapid)?;
+        let operation = self.subject.expected.get(number).filter(|operation| operation.tool == tool);
+        operation.and_then(|_| self.leaving.get(number)?.as_ref())
     }
 
     fn prober(&self, body: &'a Body) -> Prober<'a> {
@@ -133,7 +156,13 @@ impl<'a> Walk<'a> {
     }
 
     /// A piece of an arc: samples, if it should touch, and a proof that nothing between them is deeper.
-    fn along_bend(&mut self, segment: &Segment, bend: &ArcPath, tool: usize, prober: &Prober) -> Measured {
+    fn along_bend(
+        &mut self,
+        segment: &Segment,
+        bend: &ArcPath,
+        tool: (usize, Option<usize>),
+        prober: &Prober,
+    ) -> Measured {
         let mut found = Measured::default();
         if segment.excess.is_some() {
             let start = segment.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
@@ -153,7 +182,7 @@ impl<'a> Walk<'a> {
     }
 
     /// A move that should touch: three samples, and a proof that nothing between them is deeper.
-    fn along_contact(&mut self, segment: &Segment, tool: usize, prober: &Prober) -> Measured {
+    fn along_contact(&mut self, segment: &Segment, tool: (usize, Option<usize>), prober: &Prober) -> Measured {
         let mut found = Measured::default();
         let start = segment.start.and_then(|tip| self.start(tip, tool, prober, &mut found));
         let stroke = stroke_of(segment, prober.body);
@@ -189,7 +218,13 @@ impl<'a> Walk<'a> {
     }
 
     /// The start's sample: mostly the end of the move before.
-    fn start(&self, tip: [f64; 3], tool: usize, prober: &Prober, found: &mut Measured) -> Option<Sample> {
+    fn start(
+        &self,
+        tip: [f64; 3],
+        tool: (usize, Option<usize>),
+        prober: &Prober,
+        found: &mut Measured,
+    ) -> Option<Sample> {
         if let Some((_, sample)) = self.last.filter(|(t, sample)| *t == tool && same(sample.tip, tip)) {
             return Some(sample);
         }

@@ -109,14 +109,13 @@ pub(crate) fn faults(
                 && may_be_of(passes, expectation, segment)
         };
         let rows: Vec<&Segment> = segments.iter().filter(is_own).collect();
-        let Some(tool) = subject.tools.get(operation.tool) else { continue };
+        let Some(body) = subject.touching(operation) else { continue };
         if rows.is_empty() || !expectation.selected.contains(&true) {
             continue;
         }
-        let body = Body::new(tool, subject.sheet.as_ref());
         let touching = expectation.layers.map(|layers| in_layers::touching(&rows, &layers, (&body, subject, limits)));
         let contacts = touching.as_ref().map_or_else(|| rows.clone(), |touching| touching.iter().collect());
-        let sweeps = Sweeps::of(&contacts, subject);
+        let sweeps = Sweeps::of(&contacts, subject, expectation.to_leave);
         let Some(body) = sweeps.body(operation.tool) else { continue };
         let selected = expectation.triangles();
         let look =

@@ -32,8 +32,7 @@ impl<'a> Asked<'a> {
             edges.is_some() || slopes.is_some() || check.is_some()
         };
         let body = |operation: &ExpectedOperation| {
-            let tool = subject.tools.get(operation.tool).filter(|_| bounded(operation))?;
-            Some(Body::new(tool, subject.sheet.as_ref()))
+            Some(operation).filter(|operation| bounded(operation)).and_then(|operation| subject.touching(operation))
         };
         Self { subject, bodies: subject.expected.iter().map(body).collect() }
     }
@@ -132,7 +131,7 @@ impl<'a> Regions<'a> {
         let operation = self.subject.expected.get(number)?;
         let faces = self.faces.get(number)?.get_or_init(|| {
             let mesh = self.subject.mesh.part_of(|triangle| operation.expectation.selects(triangle)).ok()?;
-            let body = Body::new(self.subject.tools.get(operation.tool)?, self.subject.sheet.as_ref());
+            let body = self.subject.touching(operation)?;
             Some(Faces { body, bvh: Bvh::new(&mesh), mesh })
         });
         faces.as_ref()

@@ -19,6 +19,8 @@ pub(crate) struct Sample {
 pub(crate) struct Measured {
     /// The deepest position, when it could matter.
     pub deepest: Option<Sample>,
+    /// The deepest position in the stock that is to be left, where that could matter.
+    pub taken: Option<Sample>,
     /// Start, middle and end of a contact move, as far as they are known.
     pub contacts: [Option<Sample>; 3],
     /// Too little air under a rapid that comes down: the position where it ends.

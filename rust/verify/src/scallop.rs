@@ -79,7 +79,7 @@ pub fn scallops(
         .iter()
         .filter(|segment| segment.kind == SegmentKind::Lateral && assignment.is(segment.operation, operation))
         .collect();
-    let sweeps = Sweeps::of(&contacts, subject);
+    let sweeps = Sweeps::of(&contacts, subject, operation.expectation.to_leave);
     match (operation.expectation.ordered(), sweeps.body(operation.tool)) {
         (Some(passes), Some(body)) => {
             let ridges = Ridges { subject, operation, passes, body, sweeps: &sweeps, contacts: &contacts };

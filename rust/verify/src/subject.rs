@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use styluscam_geometry::{Bvh, Mesh, Sheet, Tool};
+use styluscam_geometry::{Bvh, Mesh, Sheet, Stock, Tool};
 use styluscam_motion::{Cornering, FeedRounding, MachineMove, Program};
 
+use crate::body::Body;
 use crate::expectation::ExpectedOperation;
 use crate::findings::{FindingKind, Severity};
 
@@ -19,6 +20,8 @@ pub struct Subject<'a> {
     pub tools: &'a [Tool],
     /// The sheet between tool and part, when there is one.
     pub sheet: Option<Sheet>,
+    /// What the part is cut from, where it is.
+    pub stock: Option<&'a Stock>,
     /// How far the triangles lie inside the true surface at most, mm: taken off every clearance
     /// before it is checked as a gouge.
     pub deviation_inward: f64,
@@ -265,6 +268,12 @@ pub struct Reach {
 }
 
 impl Subject<'_> {
+    /// An operation's tool as a body, with its sheet and the stock around it that it is to leave.
+    pub(crate) fn touching(&self, operation: &ExpectedOperation) -> Option<Body> {
+        let tool = self.tools.get(operation.tool)?;
+        Some(Body::leaving(tool, self.sheet.as_ref(), operation.expectation.to_leave))
+    }
+
     /// Whether a move's end is known.
     pub(crate) fn is_known(&self, index: usize) -> bool {
         run_of(self.unknown_positions, index).is_none()

@@ -125,6 +125,7 @@ impl<'a> Rule<'a> {
             tally.gouge.take(self.depth(deepest), place(segment, deepest));
             tally.faults.extend(self.entry(segment, deepest));
         }
+        tally.faults.extend(found.taken.as_ref().and_then(|sample| self.taken(segment, sample)));
         tally.faults.extend(found.struck.as_ref().and_then(|strike| self.strike(segment, strike)));
         if let Some(landing) = &found.landing {
             let (air, limit) = (landing.touch.value, self.limits.rapid_gap);
@@ -159,6 +160,12 @@ impl<'a> Rule<'a> {
             _ => (&faults::GOUGE, depth),
         };
         Some(fault(kind, segment, deepest, (value, self.limits.gouge), depth))
+    }
+
+    /// The fault of a move that takes of the stock that is to be left.
+    fn taken(&self, segment: &Segment, deepest: &Sample) -> Option<Fault> {
+        let (depth, limit) = (self.depth(deepest), self.limits.gouge);
+        (depth > limit + SLACK).then(|| fault(&faults::STOCK_TO_LEAVE, segment, deepest, (depth, limit), depth))
     }
 
     fn strike(&self, segment: &Segment, strike: &Strike) -> Option<Fault> {

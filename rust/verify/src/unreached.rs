@@ -90,7 +90,7 @@ struct Task<'a> {
 impl<'a> Task<'a> {
     fn new(operation: &'a ExpectedOperation, subject: &Subject) -> Option<Self> {
         let expectation = Some(&operation.expectation).filter(|it| it.contact == Contact::Touch)?;
-        Some(Self { expectation, body: Body::new(subject.tools.get(operation.tool)?, subject.sheet.as_ref()) })
+        Some(Self { expectation, body: subject.touching(operation)? })
     }
 
     /// What lies between a point and the tool, where it is as near as it can get or leaves no more than `enough`, mm; none

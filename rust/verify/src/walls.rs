@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use styluscam_geometry::{Cutter, Mesh, Tool, Vector};
+use styluscam_geometry::{Cutter, Mesh, Vector};
 
 use crate::expectation::Expectation;
 use crate::findings::{Finding, FindingKind, Severity};
@@ -25,7 +25,7 @@ pub(crate) fn finding(subject: &Subject, limits: &Limits) -> Option<Finding> {
         let expectation = &operation.expectation;
         let Some(tool) = subject.tools.get(operation.tool) else { continue };
         let cutter = tool.cutter_with(subject.sheet.as_ref(), 0.0);
-        let above = Tool::tip_above(subject.sheet.as_ref(), 0.0);
+        let above = tool.tip_above(subject.sheet.as_ref(), 0.0);
         let is_formed = |triangle: &usize| forms(expectation, subject.mesh, &cutter, above, *triangle);
         let sloped = expectation.triangles().into_iter().filter(|triangle| !is_vertical(subject.mesh, *triangle));
         let sloped: Vec<usize> = sloped.filter(is_formed).collect();

@@ -73,6 +73,7 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
         contact: Contact::Touch,
         selected: vec![true; part.mesh.triangles().len()],
         region: Region::default(),
+        to_leave: [0.0; 2],
         heights: [-30.0, 30.0],
         passes: Passes::Ordered(passes),
         forms: true,

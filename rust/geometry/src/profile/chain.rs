@@ -185,6 +185,18 @@ impl Profile {
         self
     }
 
+    /// The same with a flat of this radius (mm, not negative) before it: its Minkowski sum with a level disc.
+    #[must_use]
+    pub fn widened(mut self, by: f64) -> Self {
+        for piece in &mut self.pieces {
+            piece.shift.0 += by;
+            piece.start.0 += by;
+            piece.end.0 += by;
+        }
+        self.base.0 += by;
+        self
+    }
+
     /// The profile up to a right angle, its rim there, offset outwards by a ball (radius in mm).
     #[must_use]
     pub fn grown(&self, ball: f64) -> Self {

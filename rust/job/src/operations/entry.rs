@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::Stock;
 use styluscam_toolpath::pocket::EntryForm;
 
 use super::Context;
@@ -68,7 +69,7 @@ impl EntryHole {
                 format!("drill {least:.2} mm or more, take a smaller tool, or remove entry_hole: then helices go down");
             return Err(JobError::document("out-of-range", at, message, hint));
         }
-        let (low, high) = context.scene.mesh.bounds();
+        let (low, high) = context.scene.stock.as_ref().map_or(context.scene.mesh.bounds(), Stock::bounds);
         let inside = |at: f64, [from, to]: [f64; 2]| at - 0.5 * self.diameter > from && at + 0.5 * self.diameter < to;
         if inside(self.x, [low.x, high.x]) && inside(self.y, [low.y, high.y]) {
             return Ok(());

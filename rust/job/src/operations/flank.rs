@@ -259,6 +259,11 @@ impl OperationKind for Flank {
             let hint = format!("remove {key}; overreach, extension and lead_length shape the ends of its passes");
             return Err(JobError::document("conflict", format!("{path}.{key}"), message, hint));
         }
+        if common.leaves_stock() {
+            let message = "flank milling leaves stock along the normals of its surface";
+            let hint = "set stock_to_leave instead of radial_stock_to_leave and axial_stock_to_leave";
+            return Err(JobError::document("conflict", format!("{path}.radial_stock_to_leave"), message, hint));
+        }
         if self.side.is_some() && self.rails.is_none() {
             let message = "side belongs to rails; of faces the tool moves outside";
             return Err(JobError::document("conflict", format!("{path}.side"), message, "remove side, or state rails"));

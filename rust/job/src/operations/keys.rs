@@ -49,6 +49,14 @@ pub struct OperationKeys {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-not-of" = ["flank"], "x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
     pub z_bottom: Option<f64>,
+    /// Stock that stays on walls, mm, measured across them in plan; a pocket with `finish` takes it last.
+    #[serde(default)]
+    #[schemars(extend("x-not-of" = ["flank"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
+    pub radial_stock_to_leave: f64,
+    /// Stock that stays under the tool, on floors and slopes, mm in height; a pocket with `finish` takes it last.
+    #[serde(default)]
+    #[schemars(extend("x-not-of" = ["flank"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
+    pub axial_stock_to_leave: f64,
     /// In which direction levels and rows are run.
     #[serde(default)]
     pub direction: Direction,
@@ -156,6 +164,18 @@ pub enum LinkHeight {
 }
 
 impl OperationKeys {
+    /// Stock that stays on walls, and under the tool, mm.
+    #[must_use]
+    pub fn stock_to_leave(&self) -> [f64; 2] {
+        [self.radial_stock_to_leave, self.axial_stock_to_leave]
+    }
+
+    /// Whether any stays.
+    #[must_use]
+    pub fn leaves_stock(&self) -> bool {
+        self.stock_to_leave().iter().any(|left| *left > 0.0)
+    }
+
     /// Largest angle by which the path is to turn from one cutting move to the next, rad; infinite where it is not limited.
     #[must_use]
     pub fn corner(&self) -> f64 {

@@ -101,6 +101,8 @@ pub struct PassContext<'a> {
     pub top: f64,
     /// The tool, with the sheet that it touches.
     pub body: &'a ToolBody,
+    /// Stock that stays on walls, and under the tool, mm.
+    pub to_leave: [f64; 2],
 }
 
 /// What is known of a kind without its keys.

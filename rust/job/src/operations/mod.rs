@@ -7,6 +7,8 @@ use std::sync::LazyLock;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::Tool;
+use styluscam_verify::Contact;
 
 use crate::tagged::{self, kinds, Family};
 use crate::MAIN_CHANNEL;
@@ -68,6 +70,15 @@ impl OperationSection {
     #[must_use]
     pub fn kind(&self) -> &dyn OperationKind {
         self.operation.as_kind()
+    }
+
+    /// A tool as it touches the part: with the stock around it that it leaves. What only stays clear keeps away by itself.
+    #[must_use]
+    pub fn touching(&self, tool: &Tool) -> Tool {
+        match self.kind().contact() {
+            Contact::Touch => tool.leaving(self.common.stock_to_leave()),
+            Contact::Clear => tool.clone(),
+        }
     }
 
     /// The channel whose program does it.

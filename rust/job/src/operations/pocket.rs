@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use styluscam_geometry::Stock;
 use styluscam_motion::{Arc, Move, MoveKind, Role};
 use styluscam_toolpath::forming::{levels, selected_range, with_levels_at, z_levels, Floors, Grid, LevelRange};
 use styluscam_toolpath::offset::Envelope;
@@ -46,7 +47,7 @@ const CORNERS: f64 = 2.5 * std::f64::consts::PI / 180.0;
 const LEAST: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-/// Stock is the part's box, as high as the part, or what the operations before leave of it.
+/// Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pocket {
@@ -66,14 +67,6 @@ pub struct Pocket {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-advanced" = true, "x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     pub smoothing_radius: Option<f64>,
-    /// Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
-    #[serde(default)]
-    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
-    pub radial_stock_to_leave: f64,
-    /// Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
-    #[serde(default)]
-    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
-    pub axial_stock_to_leave: f64,
     /// Whether the stock to leave is taken as well, after the rest of its level: by a pass along the walls and a layer over each level floor,
     /// with the same bound of the engagement angle.
     #[serde(default)]
@@ -85,8 +78,8 @@ pub struct Pocket {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-example" = "{ x = 10.0, y = 8.0, diameter = 6.0 }"))]
     pub entry_hole: Option<EntryHole>,
-    /// Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else the whole box
-    /// is stock.
+    /// Whether only what the operations before leave is cleared, such as the corners that a larger tool does not reach; else all of
+    /// the stock.
     #[serde(default)]
     pub rest_machining: bool,
     /// Angle of helices and ramps down into the material, degrees.
@@ -134,19 +127,12 @@ impl Pocket {
         (self.engagement_deg + self.growth_deg).to_radians()
     }
 
-    /// What stays on walls and under the tool, mm.
-    fn left(&self) -> [f64; 2] {
-        match self.finish {
-            true => [0.0; 2],
-            false => [self.radial_stock_to_leave, self.axial_stock_to_leave],
-        }
-    }
-
-    /// What the last pass along walls takes, and the last layer over floors, mm.
-    fn finished(&self) -> [f64; 2] {
-        match self.finish {
-            true => [self.radial_stock_to_leave, self.axial_stock_to_leave],
-            false => [0.0; 2],
+    /// What stays on walls and under the tool, and what the last pass along walls and the last layer over floors take, mm, of the stock to leave.
+    fn left_and_finished(&self, to_leave: [f64; 2]) -> [[f64; 2]; 2] {
+        if self.finish {
+            [[0.0; 2], to_leave]
+        } else {
+            [to_leave, [0.0; 2]]
         }
     }
 
@@ -205,7 +191,7 @@ impl OperationKind for Pocket {
             let message = format!("engagement_deg and growth_deg come to {sum} degrees, and at most 90 are held");
             return Err(JobError::document("conflict", format!("{path}.growth_deg"), message, "lower either"));
         }
-        if self.finish && self.radial_stock_to_leave + self.axial_stock_to_leave <= 0.0 {
+        if self.finish && !common.leaves_stock() {
             let message = "finish takes the stock to leave, and there is none";
             let hint = "set radial_stock_to_leave, axial_stock_to_leave or both, mm, or remove finish";
             return Err(JobError::document("conflict", format!("{path}.finish"), message, hint));
@@ -236,10 +222,10 @@ impl OperationKind for Pocket {
     }
 
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
-        if context.scene.sheet.is_some() {
+        let Some(stock) = &context.scene.stock else {
             let message = "a pocket is cut from stock, and this job forms a sheet";
             return Err(JobError::document("conflict", context.path.clone(), message, "remove setup.sheet"));
-        }
+        };
         if context.region.check.is_some() {
             let message = "part.check_faces are not kept away from by a pocket";
             return Err(JobError::document("conflict", context.path.clone(), message, "remove part.check_faces"));
@@ -262,7 +248,7 @@ impl OperationKind for Pocket {
         let mut cleared = Cleared::default();
         for (layer, outlines) in &layers {
             let before = cleared.areas;
-            self.clear(context, (&surface, *layer), outlines, &mut cleared)?;
+            self.clear(context, (&surface, stock, *layer), outlines, &mut cleared)?;
             cleared.levels += usize::from(cleared.areas > before);
         }
         if cleared.moves.is_empty() {
@@ -308,16 +294,17 @@ impl OperationKind for Pocket {
     }
 
     fn passes(&self, given: &PassContext<'_>) -> Passes {
+        let [left, finished] = self.left_and_finished(given.to_leave);
         Passes::Clearing(Clearing {
             angle: self.angle(),
             smoothing: self.smoothing(given.body.max_radius()),
             entry_slope: self.entry_slope(),
             top: given.top,
             pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
-            left: self.left(),
+            left,
             hole: self.entry_hole.map(|hole| ([hole.x, hole.y], 0.5 * hole.diameter)),
             rest: self.rest_machining,
-            last_layer: Some(self.finished()[1]).filter(|taken| *taken > 0.0).unwrap_or(f64::INFINITY),
+            last_layer: Some(finished[1]).filter(|taken| *taken > 0.0).unwrap_or(f64::INFINITY),
         })
     }
 
@@ -350,7 +337,7 @@ impl Pocket {
         let resolution = context.machine.resolution_mm();
         let (reachable, _) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
         // the part with what stays under the tool is the part, raised
-        let raised = self.left()[1];
+        let [[_, raised], [_, finished]] = self.left_and_finished(context.common.stock_to_leave());
         let top = context.heights.top.unwrap_or(scene.top) - raised;
         let bottom = context.heights.bottom - raised;
         let body = context.tool.body(None);
@@ -361,7 +348,7 @@ impl Pocket {
         let heights = levels(&range, &floors)?;
         let heights = with_levels_at(&heights, &floors.bands(), &range, &floors).unwrap_or(heights);
         let heights = heights.into_iter().filter(|z| *z >= reachable).collect();
-        let lowest = with_last_layers(heights, top, self.finished()[1], &floors.bands());
+        let lowest = with_last_layers(heights, top, finished, &floors.bands());
         let passes = z_levels(&whole, &grid, &lowest, deviation, watch)?;
         let mut above = top;
         let layers = lowest.iter().enumerate().map(|(group, z)| {
@@ -387,15 +374,16 @@ impl Pocket {
     fn clear(
         &self,
         context: &Context<'_>,
-        (surface, [top, floor]): (&Surface<'_>, Depth),
+        (surface, stock, [top, floor]): (&Surface<'_>, &Stock, Depth),
         outlines: &[Vec<[f64; 3]>],
         cleared: &mut Cleared,
     ) -> Result<(), JobError> {
         let Context { scene, common, machine, tool, reference_height, operation, watch, .. } = *context;
         let radius = tool.cutter().at_height(top - floor).0;
+        let [left, finished] = self.left_and_finished(common.stock_to_leave());
         let hole = self.entry_hole.map(EntryHole::outline);
-        let stock: Vec<Vec<[f64; 3]>> = std::iter::once(box_around(scene, 0.0)).chain(hole).collect();
-        let air = box_around(scene, BEYOND * tool.diameter());
+        let air = box_around(stock, BEYOND * tool.diameter());
+        let stock: Vec<Vec<[f64; 3]>> = stock.outlines_between([top, floor]).iter().cloned().chain(hole).collect();
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
         let direction = sense(common, true);
         // in programs that lean arcs become lines, and their chords turn the heading
@@ -407,8 +395,8 @@ impl Pocket {
                 radius,
                 angle: if arcs { self.angle() } else { (self.angle() - CORNERS).max(LEAST) },
                 smoothing: self.smoothing(0.5 * tool.diameter()),
-                leave: self.left()[0],
-                finish: self.finished()[0],
+                leave: left[0],
+                finish: finished[0],
                 cleared: &before,
                 climb: direction != Sense::Reversed,
                 two_way: direction == Sense::Alternate,
@@ -524,9 +512,9 @@ fn with_last_layers(mut heights: Vec<f64>, top: f64, thickness: f64, floors: &[(
     heights
 }
 
-/// The outline of the part's box in plan, `by` mm larger on all sides.
-fn box_around(scene: &crate::Scene, by: f64) -> Vec<[f64; 3]> {
-    let (low, high) = scene.mesh.bounds();
+/// The outline of the stock's box in plan, `by` mm larger on all sides.
+fn box_around(stock: &Stock, by: f64) -> Vec<[f64; 3]> {
+    let (low, high) = stock.bounds();
     let [x0, y0, x1, y1] = [low.x - by, low.y - by, high.x + by, high.y + by];
     vec![[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]]
 }

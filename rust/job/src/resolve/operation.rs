@@ -93,7 +93,8 @@ fn with_passes<T>(
         faces,
         smallest_feature: section.common.smallest_feature,
         top: heights_of(job, scene, section).top.unwrap_or(scene.top),
-        body: &tool.body(scene.sheet.as_ref()),
+        body: &section.touching(tool).body(scene.sheet.as_ref()),
+        to_leave: section.common.stock_to_leave(),
     })
 }
 

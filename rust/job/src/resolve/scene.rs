@@ -1,9 +1,10 @@
 //! From a job and its part to the scene of a channel: the part turned, moved to the program's zero, and indexed.
 
-use styluscam_geometry::{Bvh, Frame, Mesh, ModelFace, Sheet, Vector};
+use styluscam_geometry::{Bvh, Frame, Mesh, ModelFace, Sheet, Stock, Vector};
 use styluscam_motion::SetupRecord;
 use styluscam_toolpath::offset::Index;
 
+use super::stock::stock_of;
 use crate::chuck::turned_over;
 use crate::fixture::ClampSection;
 use crate::{faces, plates, shaping, Chuck, FixtureSection, JobDocument, JobError, Part, Scene, Zero};
@@ -37,6 +38,9 @@ impl Scene {
             None => placed,
         };
         let Placed { mesh, target, frame, sheet, fixture, flat, top, zero } = placed;
+        let stock = sheet.is_none().then(|| stock_of(job, mesh.vertices(), mesh.bounds())).transpose()?;
+        let (stock, stock_words) = stock.unzip();
+        let top = stock.as_ref().map_or(top, |stock: &Stock| stock.top.max(top));
         let sorted = || {
             // what a face is for does not change with its shape
             let target = target.as_ref().unwrap_or(&mesh);
@@ -67,6 +71,8 @@ impl Scene {
             opposite,
             inward: if opposite.is_none() { part.inward } else { part.outward },
             outward: if opposite.is_none() { part.outward } else { part.inward },
+            stock,
+            stock_words: stock_words.filter(|_| job.setup.stock.is_some()),
             top,
             flat,
             clearance: top + job.setup.clearance,

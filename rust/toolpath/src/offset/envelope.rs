@@ -73,7 +73,7 @@ impl<'a> Envelope<'a> {
     /// The envelope of `tool` over `mesh` with `sheet` between them, kept `margin` mm clear along the normal.
     #[must_use]
     pub fn new(mesh: &'a Mesh, index: &'a Index, tool: &Tool, sheet: Option<&Sheet>, margin: f64) -> Self {
-        Self::of_cutter(mesh, index, tool.cutter_with(sheet, margin), Tool::tip_above(sheet, margin), margin)
+        Self::of_cutter(mesh, index, tool.cutter_with(sheet, margin), tool.tip_above(sheet, margin), margin)
     }
 
     /// The envelope of a solid of a tool over `mesh`: how deep the tool's tip may go for this solid alone.

@@ -51,7 +51,7 @@ pub(super) fn left(
             let Some(beside) = passed.distance(wanted).filter(|beside| *beside > allowed) else { continue };
             let [across, _] = layer.clearing.left;
             let is_reached = grid.nearest(along(across + 2.0 * grid.spacing)).is_some_and(|node| reached[node]);
-            let is_in_stock = layer.is_stock(along(across + allowed - layer.radius), subject);
+            let is_in_stock = layer.is_stock(along(across + allowed - layer.radius));
             let reach = layer.clearing.smoothing + across;
             let centre = along(reach + FINE);
             let fits = (0..SIDES).map(|i| libm::sincos(TAU * f64::from(i) / f64::from(SIDES)));

@@ -2,17 +2,16 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-use styluscam_geometry::PlanePiece;
+use styluscam_geometry::{PlanePiece, Stock};
 use styluscam_motion::{Cancelled, Watch};
 
 use super::own::Own;
 use crate::engagement::{
-    engagement, Cleared, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept,
+    engagement, Area, Cleared, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept,
 };
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
-use crate::subject::Subject;
 use crate::tolerances::{SAME_LEVEL, SLACK};
 
 /// What the angle may exceed the bound by, rad (half a degree): planning's own account of the material is good to a twentieth.
@@ -38,6 +37,10 @@ pub(super) struct Layer<'a> {
     pub unit: f64,
     /// Thickness of chips that count, mm.
     pub chip: f64,
+    /// What is cut.
+    pub stock: &'a Stock,
+    /// Where that is, under the layer's top.
+    pub area: &'a Area,
     /// What was swept in it before.
     pub cleared: &'a [Swept],
     pub gone: &'a Cleared,
@@ -80,25 +83,19 @@ impl Layer<'_> {
     pub fn judged(
         &self,
         inside: &[Inside],
-        subject: &Subject,
         watch: &Watch,
         faults: &mut Vec<Fault>,
     ) -> Result<Vec<PlanePiece>, Cancelled> {
         for found in inside {
             faults.extend(self.fault(found.own, found.doing, &found.measures));
         }
-        self.without_stock(inside, subject, watch, faults)?;
+        self.without_stock(inside, watch, faults)?;
         let swept = inside.iter().filter(|found| matches!(found.doing, Doing::Runs | Doing::Enters));
         Ok(swept.flat_map(Inside::centres).collect())
     }
 
     /// What the moves of its operation that lie in the layer, or below it, engage just under its top.
-    pub fn measured<'a>(
-        &self,
-        own: &'a [Own<'a>],
-        subject: &Subject,
-        watch: &Watch,
-    ) -> Result<Vec<Inside<'a>>, Cancelled> {
+    pub fn measured<'a>(&self, own: &'a [Own<'a>], watch: &Watch) -> Result<Vec<Inside<'a>>, Cancelled> {
         let inside: Vec<(&Own, Doing)> = own.iter().filter_map(|own| Some((own, self.doing(own)?))).collect();
         let under_top = |(own, doing): &(&Own, Doing)| match doing {
             Doing::Below | Doing::Rapid => run(own.segment, PlaneRunKind::Probed),
@@ -106,20 +103,14 @@ impl Layer<'_> {
             Doing::Runs | Doing::Links => run(own.segment, PlaneRunKind::Cut),
         };
         let runs: Vec<PlaneRun> = inside.iter().map(under_top).collect();
-        let found = self.engagement(&runs, subject, watch)?.unwrap_or_default();
+        let found = self.engagement(&runs, watch)?.unwrap_or_default();
         let moves = inside.into_iter().zip(runs).zip(found);
         Ok(moves.map(|(((own, doing), run), along)| Inside { own, doing, run, measures: along.measures }).collect())
     }
 
     /// Looks at moves down that are steeper than asked, at links and at rapids: at what stands on the floor, of which ways into the
     /// material leave some all along.
-    fn without_stock(
-        &self,
-        inside: &[Inside],
-        subject: &Subject,
-        watch: &Watch,
-        faults: &mut Vec<Fault>,
-    ) -> Result<(), Cancelled> {
+    fn without_stock(&self, inside: &[Inside], watch: &Watch, faults: &mut Vec<Fault>) -> Result<(), Cancelled> {
         let on_floor = inside.iter().filter_map(|Inside { own, doing, .. }| {
             let kind = match doing {
                 Doing::Runs if own.segment.lowest() < self.floor + SAME_LEVEL => PlaneRunKind::Swept,
@@ -131,7 +122,7 @@ impl Layer<'_> {
         });
         let on_floor: Vec<(&Own, Doing, PlaneRun)> = on_floor.collect();
         let runs: Vec<PlaneRun> = on_floor.iter().map(|(_, _, run)| run.clone()).collect();
-        let Some(found) = self.engagement(&runs, subject, watch)? else { return Ok(()) };
+        let Some(found) = self.engagement(&runs, watch)? else { return Ok(()) };
         for ((own, doing, _), along) in on_floor.iter().zip(&found) {
             let Some(worst) = worst(&along.measures).filter(|worst| worst.angle > CUTS) else { continue };
             let fault = match doing {
@@ -149,13 +140,8 @@ impl Layer<'_> {
     }
 
     /// What runs engage; none of a tool without a radius at the layer's top, which cuts nothing there.
-    fn engagement(
-        &self,
-        runs: &[PlaneRun],
-        subject: &Subject,
-        watch: &Watch,
-    ) -> Result<Option<Vec<RunEngagement>>, Cancelled> {
-        let stock = self.stock(subject);
+    fn engagement(&self, runs: &[PlaneRun], watch: &Watch) -> Result<Option<Vec<RunEngagement>>, Cancelled> {
+        let stock = self.stock();
         let ground =
             Ground { radius: self.radius, stock: &stock, pocket: &stock, cleared: self.cleared, chip: self.chip };
         match engagement(runs, &ground, watch) {
@@ -165,20 +151,16 @@ impl Layer<'_> {
         }
     }
 
-    /// The outlines of the stock: of the box, and of the hole in it.
-    fn stock(&self, subject: &Subject) -> Vec<Vec<[f64; 3]>> {
-        let (low, high) = subject.mesh.bounds();
-        let around = vec![[low.x, low.y, 0.0], [high.x, low.y, 0.0], [high.x, high.y, 0.0], [low.x, high.y, 0.0]];
+    /// The outlines of the stock, and of the hole in it.
+    fn stock(&self) -> Vec<Vec<[f64; 3]>> {
         let hole = self.clearing.hole.map(|([x, y], radius)| vec![[x + radius, y, 1.0], [x - radius, y, 1.0]]);
-        std::iter::once(around).chain(hole).collect()
+        self.stock.outlines_between([self.top, self.floor]).iter().cloned().chain(hole).collect()
     }
 
     /// Whether a point lies in the stock.
-    pub fn is_stock(&self, [x, y]: [f64; 2], subject: &Subject) -> bool {
-        let (low, high) = subject.mesh.bounds();
+    pub fn is_stock(&self, [x, y]: [f64; 2]) -> bool {
         let is_drilled = |([u, v], radius): ([f64; 2], f64)| libm::hypot(x - u, y - v) < radius;
-        let is_in_box = (low.x..=high.x).contains(&x) && (low.y..=high.y).contains(&y);
-        is_in_box && !self.clearing.hole.is_some_and(is_drilled) && !self.gone.holds([x, y])
+        self.area.holds([x, y]) && !self.clearing.hole.is_some_and(is_drilled) && !self.gone.holds([x, y])
     }
 
     fn fault(&self, own: &Own, doing: Doing, measures: &[Engaged]) -> Option<Fault> {

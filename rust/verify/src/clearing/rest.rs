@@ -77,14 +77,14 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub fn new(layer: &Layer<'_>, subject: &Subject) -> Self {
-        let (low, high) = subject.mesh.bounds();
+    pub fn new(layer: &Layer<'_>) -> Self {
+        let (low, high) = layer.stock.bounds();
         let around = 1.5 * layer.radius;
         let size = [high.x - low.x + 2.0 * around, high.y - low.y + 2.0 * around];
         let spacing = (SPACING * layer.radius).max((size[0] * size[1] / MOST).sqrt());
         let [columns, rows] = size.map(|length| libm::ceil(length / spacing) as usize + 1);
         let grid = Self { low: [low.x - around, low.y - around], spacing, columns, rows, in_stock: Vec::new() };
-        let in_stock = (0..columns * rows).map(|node| layer.is_stock(grid.at(node), subject)).collect();
+        let in_stock = (0..columns * rows).map(|node| layer.is_stock(grid.at(node))).collect();
         Self { in_stock, ..grid }
     }
 

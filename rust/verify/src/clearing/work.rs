@@ -1,23 +1,27 @@
 //! The moves of an operation that clears, layer by layer.
 
-use styluscam_geometry::Tool;
+use styluscam_geometry::{Stock, Tool};
 use styluscam_motion::{Cancelled, Program};
 
 use super::before;
 use super::layer::Layer;
 use super::own::{moves_of, Own};
 use crate::assignment::Assignment;
-use crate::engagement::{Cleared, CHIP};
+use crate::engagement::{Area, Cleared, CHIP};
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{SAME_LEVEL, SLACK};
+
+/// Cells in which the outlines of the stock are listed are as large as this at least, mm.
+const LEAST_CELL: f64 = 1.0;
 
 /// An operation that clears stock, with the moves that do it.
 pub(super) struct Work<'a> {
     pub operation: &'a ExpectedOperation,
     pub clearing: &'a Clearing,
     pub tool: &'a Tool,
+    stock: &'a Stock,
     pub own: Vec<Own<'a>>,
     /// The moves before them that took of its stock.
     before: Vec<&'a Segment>,
@@ -26,7 +30,7 @@ pub(super) struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// None of an operation that clears nothing, or has no moves.
+    /// None of an operation that clears nothing, or has no moves, and where there is no stock.
     pub fn of(
         operation: &'a ExpectedOperation,
         program: &Program,
@@ -35,11 +39,12 @@ impl<'a> Work<'a> {
         subject: &'a Subject,
     ) -> Option<Self> {
         let clearing = operation.expectation.clearing()?;
+        let stock = subject.stock?;
         let own = moves_of(program, segments.iter().filter(|segment| assignment.is(segment.operation, operation)));
         let tool = subject.tools.get(operation.tool).filter(|_| !own.is_empty())?;
         let before = before::of(segments, &own, clearing);
         let heights = heights(&own, clearing.top);
-        Some(Self { operation, clearing, tool, own, before, heights })
+        Some(Self { operation, clearing, tool, stock, own, before, heights })
     }
 
     /// Looks at one layer after the other, from the top down.
@@ -52,12 +57,15 @@ impl<'a> Work<'a> {
         let mut top = self.clearing.top;
         for floor in &self.heights {
             let cleared = before::cleared(&self.before, [top, *floor], subject);
+            let radius = self.tool.cutter().at_height(top - floor).0;
             look(&Layer {
+                stock: self.stock,
+                area: &Area::new(self.stock.outlines_between([top, *floor]), radius.max(LEAST_CELL)),
                 cleared: &cleared,
                 gone: &Cleared::new(&cleared, 0.0),
                 top,
                 floor: *floor,
-                radius: self.tool.cutter().at_height(top - floor).0,
+                radius,
                 unit: limits.unit,
                 chip: CHIP + 2.0 * limits.unit,
                 clearing: self.clearing,

@@ -70,19 +70,44 @@ impl Area {
 }
 
 /// Whether the ray from a point to +X crosses the piece's chord.
-fn crosses_chord(piece: &PlanePiece, [x, y]: PlanePoint) -> bool {
-    let (a, b) = (piece.start, piece.end);
-    (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+fn crosses_chord(piece: &PlanePiece, point: PlanePoint) -> bool {
+    let y = point[1];
+    (piece.start[1] > y) != (piece.end[1] > y) && is_left_of_rising(piece, point).0
 }
 
 /// Whether a point lies between the piece's chord and its arc.
-fn lies_in_segment(piece: &PlanePiece, [x, y]: PlanePoint) -> bool {
+fn lies_in_segment(piece: &PlanePiece, point: PlanePoint) -> bool {
     let Some(circle) = &piece.circle else { return false };
-    if libm::hypot(x - circle.centre[0], y - circle.centre[1]) > circle.radius {
+    if libm::hypot(point[0] - circle.centre[0], point[1] - circle.centre[1]) > circle.radius {
         return false;
     }
-    let (a, b) = (piece.start, piece.end);
-    let side = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+    let (is_left, falls) = is_left_of_rising(piece, point);
     // an arc that turns left lies right of its chord
-    side * circle.turn < 0.0
+    (is_left != falls) != (circle.turn > 0.0)
+}
+
+/// Whether a point lies left of a piece's chord, or above it, as this rises or, if level, goes to +X, and whether the piece goes the other
+/// way. Both pieces along one chord have the same answer, whatever rounding makes of a point on it.
+fn is_left_of_rising(piece: &PlanePiece, [x, y]: PlanePoint) -> (bool, bool) {
+    let (a, b) = (piece.start, piece.end);
+    let falls = [b[1], b[0]] < [a[1], a[0]];
+    let (a, b) = if falls { (b, a) } else { (a, b) };
+    let side = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+    (side > 0.0 || (side == 0.0 && a[1] >= b[1]), falls)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_disc_of_two_arcs_holds_what_lies_on_their_chord() {
+        for [x, y] in [[1.0, 0.0], [0.0, 1.0], [0.6, 0.8], [-0.8, 0.6]] {
+            let area = Area::new(&[vec![[x, y, 1.0], [-x, -y, 1.0]]], 1.0);
+            for share in [-0.9, -0.5, 0.0, 0.25, 0.9] {
+                assert!(area.holds([share * x, share * y]), "{share} of {x} {y}");
+            }
+            assert!(!area.holds([1.1 * x, 1.1 * y]) && !area.holds([-1.1 * x, -1.1 * y]));
+        }
+    }
 }

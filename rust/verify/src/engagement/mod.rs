@@ -31,6 +31,7 @@ use styluscam_motion::Watch;
 pub use error::EngagementError;
 pub use runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP};
 
+pub(crate) use area::Area;
 pub(crate) use cells::Cells;
 pub(crate) use cleared::Cleared;
 

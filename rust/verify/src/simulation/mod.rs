@@ -16,10 +16,13 @@ mod mesh;
 mod stock;
 mod underside;
 
+use styluscam_geometry::{PlanePiece, Stock};
 use styluscam_motion::{ArcPath, Cancelled, Program, Watch};
 
+use crate::engagement::Area;
 use crate::segments::{placed, Segment};
 use crate::subject::{Limits, Subject};
+use crate::tolerances::SLACK;
 use cut::Cut;
 use field::{Field, Tile};
 use underside::Underside;
@@ -28,7 +31,8 @@ pub use grid::Grid;
 pub use mesh::Skin;
 pub use stock::Simulation;
 
-/// Cuts a stock with a flat top with all moves of a program.
+/// Cuts the subject's stock, or a sheet with a flat top, with all moves of a program. Beside the stock there is nothing down to its
+/// underside.
 ///
 /// With a sheet, the face that is followed is the one that `subject.sheet` names; `top` (mm) is its height on the blank.
 ///
@@ -47,7 +51,25 @@ pub fn simulate(
     let (cuts, arcs) = cuts(&placed(program, subject, limits));
     let field = Field { grid, top, tools: &tools, arcs: &arcs, watch };
     let tiles = field.tiles(grid.whole(), &cuts)?;
-    Ok(Simulation { grid, heights: assembled(grid, &tiles), top })
+    let mut heights = assembled(grid, &tiles);
+    if let Some(stock) = subject.stock {
+        clear_beside(stock, grid, &mut heights);
+    }
+    Ok(Simulation { grid, heights, top })
+}
+
+/// Lowers to the stock's underside what lies beside it.
+fn clear_beside(stock: &Stock, grid: Grid, heights: &mut [f64]) {
+    // its own border belongs to it, whatever arithmetic makes of that
+    let area = Area::new(&stock.outlines, grid.step[0].max(grid.step[1]));
+    let pieces: Vec<PlanePiece> = stock.outlines.iter().flat_map(|outline| PlanePiece::outline(outline)).collect();
+    let is_on_border = |at: [f64; 2]| pieces.iter().any(|piece| piece.distance(at) <= SLACK);
+    for (node, height) in heights.iter_mut().enumerate() {
+        let at = grid.at(node % grid.nodes[0], node / grid.nodes[0]);
+        if !area.holds(at) && !is_on_border(at) {
+            *height = height.min(stock.bottom);
+        }
+    }
 }
 
 /// What every move cuts, and the arcs that some of them are parts of.

@@ -57,6 +57,7 @@ impl Part {
             bvh: &self.bvh,
             tools,
             sheet: None,
+            stock: None,
             deviation_inward: 0.0,
             deviation_outward: 0.0,
             wcs: "G54",
@@ -90,8 +91,16 @@ pub fn tool(profile: ProfileDocument) -> Tool {
 /// What a job states for its one operation, of all triangles.
 pub fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes) -> [ExpectedOperation; 1] {
     let selected = vec![true; part.mesh.triangles().len()];
-    let expectation =
-        Expectation { contact, selected, region: Region::default(), heights, passes, forms: false, layers: None };
+    let expectation = Expectation {
+        contact,
+        selected,
+        region: Region::default(),
+        to_leave: [0.0; 2],
+        heights,
+        passes,
+        forms: false,
+        layers: None,
+    };
     let id = "walls".to_owned();
     [ExpectedOperation {
         id,

@@ -315,7 +315,7 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it.
+Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
 is a cylinder or a cone, with a flat end or a round one.</source>
         <translation type="unfinished"></translation>
@@ -378,12 +378,12 @@ Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
+        <source>Stock that stays on walls, mm, measured across them in plan; a pocket with `finish` takes it last.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
+        <source>Stock that stays under the tool, on floors and slopes, mm in height; a pocket with `finish` takes it last.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
@@ -477,6 +477,15 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
 that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
 that an operation leaves out follow from it.
 0 or empty: not stated</source>
+        <source>What the part is cut from; its box when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the posted path is made of.
+lines: Lines.
+arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -774,7 +783,7 @@ Range: 0 to 80 deg</source>
     </message>
     <message>
         <source>Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it.</source>
+Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1584,7 +1593,7 @@ meridian: The path along the part's meridian, from the axis outwards, in X and Z
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
-Stock is the part's box, as high as the part, or what the operations before leave of it.
+Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
 is a cylinder or a cone, with a flat end or a round one.</source>
         <translation type="unfinished"></translation>
@@ -1991,17 +2000,21 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Stock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Stock that stays on the surface, mm along its normals.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock that stays on walls, mm, measured across them in plan; with `finish` the last pass along them takes it.
+        <source>Stock that stays on walls, mm, measured across them in plan; a pocket with `finish` takes it last.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock that stays under the tool, on floors and slopes, mm in height; with `finish` a last layer over each level floor takes it.
+        <source>Stock that stays under the tool, on floors and slopes, mm in height; a pocket with `finish` takes it last.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2369,6 +2382,15 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
 that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
 that an operation leaves out follow from it.
 0 or empty: not stated</source>
+        <source>What the part is cut from; its box when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the posted path is made of.
+lines: Lines.
+arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -1,0 +1,35 @@
+//! Stock: what the part is cut from, one file a kind.
+//!
+//! A further kind is one file here and one line in [`StockSection`].
+
+mod block;
+mod cylinder;
+mod kind;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use block::BoxStock;
+pub use cylinder::CylinderStock;
+
+use kind::StockKind;
+
+/// Stock from which the part is cut.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum StockSection {
+    /// A box around the part.
+    Box(BoxStock),
+    /// An upright cylinder around the part.
+    Cylinder(CylinderStock),
+}
+
+impl StockSection {
+    /// What it answers.
+    pub(crate) fn as_kind(&self) -> &dyn StockKind {
+        match self {
+            Self::Box(kind) => kind,
+            Self::Cylinder(kind) => kind,
+        }
+    }
+}
