@@ -62,7 +62,8 @@ class Case:
     @property
     def machine(self) -> sc.Machine:
         """The machine."""
-        limits = {"rapid_rate": self.rapid_rate, "acceleration": self.acceleration, **self.axes}
+        each = {"axis_rate": [self.rapid_rate] * 3, "axis_acceleration": [self.acceleration] * 3, **self.axes}
+        limits = {"rapid_rate": self.rapid_rate, "acceleration": self.acceleration, **each}
         file = {"schema": 1, "extends": "linuxcnc", "name": "linuxcnc-timed", "limits": limits}
         return sc.Machine.of({**file, "smoothing": {"tolerance": self.tolerance}})
 
