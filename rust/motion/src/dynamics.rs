@@ -1,4 +1,4 @@
-//! How long a program takes on a machine that must accelerate, slow down in corners and read its blocks.
+//! How long a program takes on a machine that must accelerate, slow down in corners and read its blocks: docs/concepts/time.md.
 
 use crate::ramps::{self, Corners, Stretch};
 use crate::{EventKind, Move, Plane, Program};
