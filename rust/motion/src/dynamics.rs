@@ -108,7 +108,8 @@ impl Dynamics {
         let rate = step.mm_per_min(length, rpm).filter(|rate| *rate > 0.0 && rate.is_finite());
         let rate = rate.unwrap_or(self.rapid_rate).min(self.axis_rate.map_or(f64::INFINITY, along));
         let acceleration = self.axis_acceleration.map(along).or(self.acceleration).unwrap_or(f64::INFINITY);
-        let plain = Stretch { length, speed: rate / MINUTE, acceleration, from, to, stopped };
+        let across = step.arc.map(|arc| arc.plane.axes()[2]);
+        let plain = Stretch { length, speed: rate / MINUTE, acceleration, from, to, across, stopped };
         match path {
             Some(path) if self.blends && acceleration.is_finite() => {
                 let (speed, acceleration) = ramps::around(path.radius(), plain.speed, acceleration);
@@ -283,6 +284,23 @@ mod tests {
         let (length, top) = (std::f64::consts::TAU, 866.0_f64.sqrt());
         let along = 1000.0 * (1.0 - 0.866 * 0.866_f64).sqrt();
         assert!((blending.times(&circle).1 - (length / top + top / along)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_corner_out_of_the_plane_of_an_arc_halves_the_acceleration() {
+        // up 50 mm at the end of a full circle of radius 50 in XY: no arc joins them, and both have 500 mm/s^2
+        let mut up = line();
+        up.moves[1].end = Pose::upright([0.0; 3]);
+        up.moves[1].arc = Some(Arc { centre: [50.0, 0.0, 0.0], plane: Plane::Xy, clockwise: true, turns: 0 });
+        let mut rise = up.moves[1].to([0.0, 0.0, 50.0]);
+        rise.arc = None;
+        up.moves.push(rise);
+        let blending = Dynamics { blends: true, ..PLAIN };
+        let turning = 100.0 * 100.0 / (50.0 * 1000.0);
+        let along = 500.0 * (1.0_f64 - turning * turning).sqrt();
+        let expected = std::f64::consts::TAU * 50.0 / 100.0 + 100.0 / along + 0.5 + 0.2;
+        let found = blending.times(&up).1;
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     }
 
     #[test]

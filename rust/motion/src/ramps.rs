@@ -4,8 +4,12 @@
 const TURNING: f64 = 0.866;
 /// Least share of the acceleration that changes the speed along an arc.
 const ALONG: f64 = 0.5;
+/// Share of the acceleration of each of two moves that overlap where no arc joins them: the other one has the rest.
+const OVERLAP: f64 = 0.5;
 /// Sine or cosine of half an angle that is none.
 const NO_ANGLE: f64 = 1e-6;
+/// Sine of the angle by which a direction may leave a plane and lie in it: of rounded coordinates.
+const LEVEL: f64 = 1e-2;
 
 /// A move as its dynamics see it.
 pub(crate) struct Stretch {
@@ -18,6 +22,8 @@ pub(crate) struct Stretch {
     /// Direction at both ends; none when its length is 0.
     pub from: Option<[f64; 3]>,
     pub to: Option<[f64; 3]>,
+    /// The axis across an arc.
+    pub across: Option<usize>,
     /// Whether the machine stands before it.
     pub stopped: bool,
 }
@@ -40,6 +46,8 @@ struct Corner {
     length: f64,
     speed: f64,
     acceleration: f64,
+    /// Whether both stretches overlap there.
+    overlap: bool,
 }
 
 /// A part of the path with one highest speed: a stretch or a corner.
@@ -65,7 +73,9 @@ pub(crate) fn seconds(stretches: &[Stretch], corners: &Corners) -> Vec<f64> {
         let cut = |corner: Option<&Corner>| corner.map_or(0.0, |corner| corner.cut);
         let length = (stretch.length - cut(before) - cut(between.get(index))).max(0.0);
         pieces.extend(before.map(|c| Piece { length: c.length, speed: c.speed, acceleration: c.acceleration }));
-        pieces.push(Piece { length, speed: stretch.speed, acceleration: stretch.acceleration });
+        let overlaps = [before, between.get(index)].iter().flatten().any(|corner| corner.overlap);
+        let acceleration = if overlaps { OVERLAP * stretch.acceleration } else { stretch.acceleration };
+        pieces.push(Piece { length, speed: stretch.speed, acceleration });
     }
     let speeds = speeds(&pieces);
     let times: Vec<f64> =
@@ -79,7 +89,7 @@ impl Corners {
     fn between(&self, before: &Stretch, after: &Stretch) -> Corner {
         let acceleration = before.acceleration.min(after.acceleration);
         let top = before.speed.min(after.speed);
-        let still = Corner { cut: 0.0, length: 0.0, speed: 0.0, acceleration };
+        let still = Corner { cut: 0.0, length: 0.0, speed: 0.0, acceleration, overlap: false };
         let past = Corner { speed: top, ..still };
         if after.stopped {
             return still;
@@ -99,14 +109,23 @@ impl Corners {
         if !self.blends {
             return Corner { speed: top.min((acceleration * radius).sqrt()), ..still };
         }
+        if !(flat(before, b) && flat(after, a)) {
+            let speed = top.min((OVERLAP * acceleration * radius).sqrt());
+            return Corner { speed, overlap: true, ..still };
+        }
         let limit = self.axes.map_or(acceleration, |axes| {
             let moved = [0, 1, 2].map(|axis| a[axis].abs().max(b[axis].abs()) > NO_ANGLE);
             least(axes, moved)
         });
         let radius = radius.min(0.5 * before.length.min(after.length) * cos / sin);
         let (speed, acceleration) = around(radius, top, limit);
-        Corner { cut: radius * sin / cos, length: 2.0 * radius * libm::atan2(sin, cos), speed, acceleration }
+        Corner { cut: radius * sin / cos, length: 2.0 * radius * libm::atan2(sin, cos), speed, acceleration, ..past }
     }
+}
+
+/// Whether a direction lies in the plane of a stretch that is an arc.
+fn flat(stretch: &Stretch, direction: [f64; 3]) -> bool {
+    stretch.across.and_then(|axis| direction.get(axis)).is_none_or(|part| part.abs() < LEVEL)
 }
 
 /// The least of the values of axes that move; infinite where none does.
