@@ -212,8 +212,8 @@ def chains(length: float) -> str:
     text = ["G21 G90 G17 G40 G49 G80 G94", "G64 P@TOLERANCE@ Q0", "G0 X0 Y0 Z0"]
     for angle in TURNS_DEG:
         headings = np.radians(angle) * (np.arange(9) % 2)
-        places = np.cumsum(length * np.column_stack([np.cos(headings), np.sin(headings)]), axis=0)
-        text += ["G4 P0.01", *(f"G1 X{x:.4f} Y{y:.4f} F3000" for x, y in places), "G4 P0.01", "G0 X0 Y0"]
+        positions = np.cumsum(length * np.column_stack([np.cos(headings), np.sin(headings)]), axis=0)
+        text += ["G4 P0.01", *(f"G1 X{x:.4f} Y{y:.4f} F3000" for x, y in positions), "G4 P0.01", "G0 X0 Y0"]
     return "\n".join([*text, "M2", ""])
 
 
