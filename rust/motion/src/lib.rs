@@ -13,6 +13,7 @@ mod event;
 mod feed_rounding;
 mod pose;
 mod program;
+mod ramps;
 mod record;
 mod statistics;
 mod step;

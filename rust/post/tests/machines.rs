@@ -144,6 +144,8 @@ fn values_out_of_range() {
         ("rapid_rate = 3000.0", "rapid_rate = 1.0\nmax_feed = inf", "limits.max_feed"),
         ("rapid_rate = 3000.0", "rapid_rate = 1.0\nmax_rpm = nan", "limits.max_rpm"),
         ("rapid_rate = 3000.0", "rapid_rate = 1.0\nx = [5.0, 1.0]", "limits.x"),
+        ("rapid_rate = 3000.0", "rapid_rate = 1.0\naxis_rate = [5.0, 1.0, 0.0]", "limits.axis_rate"),
+        ("rapid_rate = 3000.0", "rapid_rate = 1.0\naxis_acceleration = [5.0, -1.0, 1.0]", "limits.axis_acceleration"),
         ("rapid_rate = 3000.0", "rapid_rate = 1.0\ntravel = [5.0, 1.0, 0.0]", "limits.travel"),
         ("percent = true", "percent = true\nrefused = [\"6\"]", "reader.refused[0]"),
     ];

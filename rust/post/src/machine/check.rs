@@ -211,6 +211,9 @@ fn check_limits(machine: &Machine) -> Result<(), MachineError> {
     require(limits.max_feed.is_none_or(positive), "limits.max_feed", "above 0, in mm/min")?;
     require(positive(limits.rapid_rate), "limits.rapid_rate", "above 0, in mm/min")?;
     require(limits.acceleration.is_none_or(positive), "limits.acceleration", "above 0, in mm/s^2")?;
+    let each = |values: Option<[f64; 3]>| values.is_none_or(|v| v.iter().all(|x| positive(*x)));
+    require(each(limits.axis_rate), "limits.axis_rate", "three speeds above 0, in mm/min")?;
+    require(each(limits.axis_acceleration), "limits.axis_acceleration", "three accelerations above 0, in mm/s^2")?;
     require(
         limits.corner_tolerance.is_none_or(|t| (0.0..=10.0).contains(&t)),
         "limits.corner_tolerance",

@@ -164,7 +164,11 @@ impl Machine {
         let limits = &self.limits;
         Dynamics {
             rapid_rate: limits.rapid_rate,
+            axis_rate: limits.axis_rate,
             acceleration: limits.acceleration,
+            axis_acceleration: limits.axis_acceleration,
+            blends: limits.blends,
+            stops_at_rapids: limits.stops_at_rapids,
             corner_tolerance: limits.corner_tolerance.unwrap_or(self.path_tolerance_mm()),
             blocks_per_second: limits.blocks_per_second,
         }

@@ -258,10 +258,20 @@ pub struct Limits {
     pub max_feed: Option<f64>,
     /// Speed of rapids, mm/min: for estimates of time.
     pub rapid_rate: f64,
+    /// Fastest of X, Y and Z, mm/min, of rapids and feeds: for estimates of time.
+    pub axis_rate: Option<[f64; 3]>,
     /// Acceleration along the path, mm/s^2: for estimates of time, and for `slow_corners`; without it speeds change at once.
     pub acceleration: Option<f64>,
+    /// Accelerations of X, Y and Z, mm/s^2: for estimates of time, where a move is accelerated as far as its axes allow.
+    pub axis_acceleration: Option<[f64; 3]>,
     /// How far the controller cuts corners, mm: for estimates of time, where it is the smoothing's tolerance when left out, and for `slow_corners`, where it is 0.01.
     pub corner_tolerance: Option<f64>,
+    /// Whether it runs along arcs that cut corners so far and take half of a move at most: for estimates of time. Else a corner is as fast as such an arc of any length.
+    #[serde(default)]
+    pub blends: bool,
+    /// Whether it stops between rapids and feeds: for estimates of time.
+    #[serde(default)]
+    pub stops_at_rapids: bool,
     /// Blocks that the controller reads in a second: for estimates of time.
     pub blocks_per_second: Option<f64>,
     /// Smallest spindle speed, rev/min.
