@@ -21,6 +21,7 @@ mod tests;
 
 pub use formable::Unformable;
 pub use heights::{Border, Heights};
+pub(crate) use rays::Rays;
 pub use hollows::{FaceLook, Hollows};
 pub use sampled::Body;
 pub(crate) use samples::in_triangle;

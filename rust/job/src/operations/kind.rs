@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use styluscam_geometry::ToolBody;
-use styluscam_motion::Move;
+use styluscam_motion::{Cycle, EventKind, Move};
 use styluscam_verify::{Contact, Layers, Passes};
 
 use super::{Areas, Context, Effort, Fact, SurfaceFacts};
@@ -34,6 +34,16 @@ pub trait OperationKind {
     /// The feed along its passes, mm/min.
     fn cut_feed(&self, common: &OperationKeys) -> f64 {
         common.feeds.cut
+    }
+
+    /// The feed straight down, mm/min; `rpm` is the spindle's.
+    fn plunge_feed(&self, common: &OperationKeys, _rpm: Option<f64>) -> f64 {
+        common.feeds.plunge
+    }
+
+    /// Whether what it leaves of its faces is asked from above.
+    fn owes_faces(&self) -> bool {
+        !self.leans()
     }
 
     /// The highest of its feeds, mm/min, where they depend on what is cut.
@@ -133,8 +143,10 @@ pub struct StarterPasses {
 pub struct Planned {
     /// Its moves.
     pub moves: Vec<Move>,
-    /// Where the tool waits: the numbers of the moves behind which it does, ascending, and for how long, s.
-    pub waits: Vec<(usize, f64)>,
+    /// What happens behind moves: their numbers, ascending, and what.
+    pub events: Vec<(usize, EventKind)>,
+    /// Its holes by canned cycles; `first` counts its own moves.
+    pub cycles: Vec<Cycle>,
     /// Its extent for the summary: "30 loops on 12 levels".
     pub words: String,
     /// Its extent for the program's header: "12 levels, 30 passes".

@@ -47,6 +47,7 @@ kinds! {
         meridian::Meridian = "meridian",
         pocket::Pocket = "pocket",
         flank::Flank = "flank",
+        drill::Drill = "drill",
     }
 }
 

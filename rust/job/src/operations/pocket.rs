@@ -284,7 +284,8 @@ impl OperationKind for Pocket {
             facts.push(slow);
         }
         Ok(Planned {
-            waits: Vec::new(),
+            events: Vec::new(),
+            cycles: Vec::new(),
             words: format!("{} on {}", counted(cleared.areas, "area", "areas"), counted(levels, "level", "levels")),
             note: format!("{levels} levels, {} areas", cleared.areas),
             facts,
