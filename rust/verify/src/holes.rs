@@ -57,7 +57,9 @@ pub(crate) fn faults(segments: &[Segment], subject: &Subject, limits: &Limits) -
         let Some(drilling) = operation.expectation.drilling() else { continue };
         let own: Vec<&Segment> = segments.iter().filter(|segment| segment.expected == Some(number)).collect();
         let Some(last) = own.last() else { continue }; // that the operation is missing is found by itself
-        let mut walk = Walk { drilling, subject, limits, drilled: vec![UNTOUCHED; drilling.holes.len()] };
+        let [_, top] = operation.expectation.heights;
+        let stock = if top.is_finite() { top } else { f64::NEG_INFINITY };
+        let mut walk = Walk { drilling, subject, limits, stock, drilled: vec![UNTOUCHED; drilling.holes.len()] };
         for segment in &own {
             faults.extend(walk.take(segment));
         }
@@ -77,6 +79,8 @@ struct Walk<'a> {
     drilling: &'a Drilling,
     subject: &'a Subject<'a>,
     limits: &'a Limits,
+    /// Height up to which stock stands over the holes, where the job states one, mm.
+    stock: f64,
     /// In the order of the holes.
     drilled: Vec<Drilled>,
 }
@@ -90,11 +94,11 @@ impl Walk<'_> {
         match segment.kind {
             SegmentKind::Rapid => {
                 drilled.from = None;
-                let lowest = if drilled.depth.is_finite() { drilled.depth.min(hole.top) } else { hole.top };
-                let high = if on_axis { lowest } else { self.limits.retract };
-                // the rapid before it has passed whatever it comes back from
-                let falls = segment.descends() && segment.end[2] < high - self.limits.unit - SLACK;
-                falls.then(|| segment.fault(&faults::RAPID_IN_HOLE).measured(segment.end[2], high)).into_iter().collect()
+                let lowest = if drilled.depth.is_finite() { drilled.depth } else { hole.top.max(self.stock) };
+                // beside the holes it is a rapid as any other
+                let falls = on_axis && segment.descends() && segment.end[2] < lowest - self.limits.unit - SLACK;
+                let fault = || segment.fault(&faults::RAPID_IN_HOLE).measured(segment.end[2], lowest);
+                falls.then(fault).into_iter().collect()
             }
             SegmentKind::Plunge if on_axis => {
                 let start = segment.start.map_or(segment.end[2], |start| start[2]);

@@ -12,8 +12,8 @@ use crate::report::Report;
 use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::{
-    clearing, corner_angles, corners, diagnosis, frame, holes, leaning, low_links, pair, passes, reach, sequence, settings,
-    travel, unreached, walls,
+    clearing, corner_angles, corners, diagnosis, frame, holes, leaning, low_links, pair, passes, reach, sequence,
+    settings, travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.

@@ -5,11 +5,11 @@ use styluscam_motion::{EventKind, FeedMode, Move, MoveKind, Program};
 use crate::assignment::Assignment;
 use crate::faults::{self, Fault};
 use crate::findings::{Finding, FindingKind, Severity};
-use crate::{holes, low_links};
 use crate::segments::{is_in_range, Segment, SegmentKind};
 use crate::subject::{Limits, Subject, ToolCalls};
 use crate::tolerances::SLACK;
 use crate::unknown::{self, standing_low};
+use crate::{holes, low_links};
 
 /// Faults of the moves' text, in the order of the moves.
 pub(crate) fn faults(

@@ -21,8 +21,8 @@ mod tests;
 
 pub use formable::Unformable;
 pub use heights::{Border, Heights};
-pub(crate) use rays::Rays;
 pub use hollows::{FaceLook, Hollows};
+pub(crate) use rays::Rays;
 pub use sampled::Body;
 pub(crate) use samples::in_triangle;
 pub use shell::Shell;

@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::Vector;
-use styluscam_motion::{Cycle, CycleKind, CycleStart, CycleStep, EventKind, Move, MoveKind, SpindleDirection, MOST_PECKS};
+use styluscam_motion::{
+    Cycle, CycleKind, CycleStart, CycleStep, EventKind, Move, MoveKind, SpindleDirection, MOST_PECKS,
+};
 use styluscam_toolpath::{shortly_ordered, Air, Freedom, Pass, PathPoint, Seam, Sense};
 use styluscam_verify::{Contact, DrilledHole, Drilling, Passes};
 
@@ -180,7 +182,8 @@ impl Drill {
 
     /// Named faces that are no wall of an upright hole that the tool fits.
     fn check_named(&self, given: &PassContext<'_>, found: &[Hole], path: &str) -> Result<(), JobError> {
-        let refused = |code, message: String, hint: &str| Err(JobError::document(code, format!("{path}.faces"), message, hint));
+        let refused =
+            |code, message: String, hint: &str| Err(JobError::document(code, format!("{path}.faces"), message, hint));
         for face in given.faces.iter().filter(|face| !found.iter().any(|hole| hole.faces.contains(face))) {
             let angle = leaning_hole(given.scene, *face).filter(|angle| *angle > LEANS);
             if let Some(angle) = angle {
@@ -202,8 +205,7 @@ impl Drill {
         let (name, wide) = (hole.name(), hole.diameter());
         let wider = wide - shape.diameter;
         if wider < 0.0 {
-            let message =
-                format!("the hole {name} is {wide:.3} mm wide, {:.3} mm narrower than the tool", -wider);
+            let message = format!("the hole {name} is {wide:.3} mm wide, {:.3} mm narrower than the tool", -wider);
             return JobError::document("narrow-hole", format!("{path}.tool"), message, "take a narrower tool");
         }
         let message = format!(
@@ -303,7 +305,8 @@ impl OperationKind for Drill {
         }
         let fitting: Vec<&Hole> = found.iter().filter(|hole| self.fits(hole, shape)).collect();
         if fitting.is_empty() {
-            return Err(match found.first() {
+            let wider = |hole: &&Hole| (hole.diameter() - shape.diameter).abs();
+            return Err(match found.iter().min_by(|a, b| wider(a).total_cmp(&wider(b))) {
                 Some(hole) => self.misfit(hole, shape, path),
                 None => {
                     let message = "none of the faces is the wall of a round upright hole that is open above";
@@ -320,7 +323,8 @@ impl OperationKind for Drill {
                      end of the wall",
                     hole.name()
                 );
-                let hint = "set depth = \"tip\", model the floor as the cone of the tool's point, or take a flatter tool";
+                let hint =
+                    "set depth = \"tip\", model the floor as the cone of the tool's point, or take a flatter tool";
                 return Err(JobError::document("flat-floor", format!("{path}.depth"), message, hint));
             }
         }
@@ -396,7 +400,9 @@ impl Drill {
             })?;
             for step in steps {
                 match step {
-                    CycleStep::Move(MoveKind::Rapid, tip) => moves.push(Move::rapid(tip).of_operation(context.operation)),
+                    CycleStep::Move(MoveKind::Rapid, tip) => {
+                        moves.push(Move::rapid(tip).of_operation(context.operation))
+                    }
                     CycleStep::Move(MoveKind::Feed, tip) => {
                         moves.push(Move::feed(tip, cycle.feed).of_operation(context.operation));
                     }
@@ -406,7 +412,10 @@ impl Drill {
             depth += begins - cycle.bottom;
             cycles.push(Cycle { count: moves.len() - cycle.first, ..cycle });
         }
-        let facts = vec![Fact::count(holes.len(), "hole", "holes"), Fact::length("drilled", depth, "drilled, all holes together")];
+        let facts = vec![
+            Fact::count(holes.len(), "hole", "holes"),
+            Fact::length("drilled", depth, "drilled, all holes together"),
+        ];
         let events: Vec<(usize, EventKind)> = events;
         Ok(Planned { moves, events, cycles, words: String::new(), note: String::new(), facts, surface: None })
     }

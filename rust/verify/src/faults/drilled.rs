@@ -15,7 +15,9 @@ pub(crate) static MISSING_HOLE: FaultKind = FaultKind::on_part(
 );
 pub(crate) static NO_HOLE_HERE: FaultKind = FaultKind::on_part(
     FindingKind::StrayHole,
-    |fault| format!("a feed of a drill goes to where the operation has no hole, {:.3} mm from the nearest", fault.value()),
+    |fault| {
+        format!("a feed of a drill goes to where the operation has no hole, {:.3} mm from the nearest", fault.value())
+    },
     "correct X and Y, or post the operation again",
 );
 pub(crate) static TOO_DEEP: FaultKind = FaultKind::on_part(
@@ -32,7 +34,7 @@ pub(crate) static RAPID_IN_HOLE: FaultKind = FaultKind::in_text(
     FindingKind::RapidPlunge,
     |fault| {
         let (value, limit) = (fault.value(), fault.limit());
-        format!("a rapid goes down to Z{value:.3}, and the hole is drilled down to Z{limit:.3} so far")
+        format!("a rapid goes down to Z{value:.3}, and the hole is open down to Z{limit:.3} so far")
     },
     "come down at a feed from there",
 );
