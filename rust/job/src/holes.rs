@@ -22,6 +22,8 @@ const SAME: f64 = 0.01;
 const RING: f64 = 0.9;
 /// Positions on it.
 const RAYS: usize = 8;
+/// How far beside the axis the floor is looked for, mm: on it edges of triangles meet.
+const BESIDE: f64 = 1e-4;
 /// How far under the wall's end a floor lies there at most, as a share of the radius: a cone of 50 degrees does.
 const FLOOR: f64 = 0.25;
 
@@ -176,8 +178,7 @@ impl Wall {
         let below = |start: Vector| rays.first(start, -Vector::z(), 0.0, |_| true).map(|hit| middle - hit.distance);
         let is_floor = |z: f64| z >= self.bottom - FLOOR * self.radius;
         let is_blind = ring(within, middle).any(|start| below(start).is_some_and(is_floor));
-        // off the axis by a little: there edges of triangles meet
-        let floor = ring(SAME * self.radius, middle).filter_map(below).fold(f64::NEG_INFINITY, f64::max);
+        let floor = ring(BESIDE, middle).filter_map(below).fold(f64::NEG_INFINITY, f64::max);
         // under a shoulder a narrower hole goes on
         let floor = if floor.is_finite() && floor >= self.bottom - 2.0 * self.radius { floor } else { self.bottom };
         Some(Hole {
@@ -212,4 +213,41 @@ fn circle(points: &[Vector]) -> Option<([f64; 2], f64)> {
     let (x, y) = ((u3 * vv - v3 * uv) / det, (v3 * uu - u3 * uv) / det);
     let radius = (x * x + y * y + (uu + vv) / count).sqrt();
     Some(([mean.x + x, mean.y + y], radius))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(count: usize, share: f64) -> Vec<Vector> {
+        let at = |i: usize| libm::sincos(share * TAU * i as f64 / count as f64);
+        (0..count).map(at).map(|(sin, cos)| Vector::new(3.0 + 2.5 * cos, -7.0 + 2.5 * sin, 0.1)).collect()
+    }
+
+    #[test]
+    fn the_circle_is_that_of_the_points_though_they_are_on_an_arc() {
+        for share in [1.0, 0.3] {
+            let ([x, y], radius) = circle(&points(40, share)).unwrap();
+            assert!((x - 3.0).abs() + (y + 7.0).abs() + (radius - 2.5).abs() < 1e-9, "{x} {y} {radius}");
+        }
+        assert_eq!(circle(&[Vector::zeros(), Vector::x(), Vector::x() * 2.0]), None);
+    }
+
+    #[test]
+    fn a_wall_is_whole_only_all_the_way_around_in_narrow_facets() {
+        let wall = |count: usize, share: f64| Wall {
+            faces: vec![1],
+            at: [3.0, -7.0],
+            radius: 2.5,
+            top: 1.0,
+            bottom: 0.0,
+            bearings: points(count, share).iter().map(|p| libm::atan2(p.y + 7.0, p.x - 3.0)).collect(),
+        };
+        assert!(wall(16, 1.0).is_whole());
+        assert!(!wall(6, 1.0).is_whole(), "a hexagon");
+        assert!(!wall(200, 0.5).is_whole(), "the end of a slot");
+        let mut halves = wall(200, 0.5);
+        halves.join(Wall { bearings: wall(200, 0.5).bearings.iter().map(|b| -b).collect(), ..wall(200, 0.5) });
+        assert!(halves.is_whole());
+    }
 }

@@ -448,3 +448,48 @@ fn retract_height() -> f64 {
 fn diameter_tolerance() -> f64 {
     0.01
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHAPE: DrillShape = DrillShape { diameter: 5.0, point: 1.5 };
+
+    fn hole(floor: Option<f64>) -> Hole {
+        Hole { faces: vec![7], at: [0.0; 2], radius: 2.5, top: 12.0, bottom: 4.0, floor }
+    }
+
+    fn drill(depth: HoleDepth) -> Drill {
+        Drill { cycle: HoleCycle::default(), depth, breakthrough: 0.5, retract_height: 1.0, diameter_tolerance: 0.1 }
+    }
+
+    #[test]
+    fn the_point_goes_through_and_stops_at_floors() {
+        for depth in [HoleDepth::Tip, HoleDepth::FullDiameter] {
+            assert_eq!(drill(depth).bottom(&hole(None), SHAPE), 2.0);
+            assert_eq!(drill(depth).bottom(&hole(Some(2.5)), SHAPE), 2.5, "the cone of its own point");
+        }
+        assert_eq!(drill(HoleDepth::Tip).bottom(&hole(Some(4.0)), SHAPE), 4.0);
+        assert_eq!(drill(HoleDepth::FullDiameter).bottom(&hole(Some(4.0)), SHAPE), 2.5);
+        assert_eq!(
+            drill(HoleDepth::Tip).bottom(&hole(Some(1.0)), SHAPE),
+            2.5,
+            "its shoulder meets a steeper cone first"
+        );
+    }
+
+    #[test]
+    fn holes_fit_from_the_tools_diameter_to_the_tolerance_beyond_it() {
+        let fits = |diameter: f64| drill(HoleDepth::Tip).fits(&Hole { radius: 0.5 * diameter, ..hole(None) }, SHAPE);
+        assert!(fits(4.999) && fits(5.0) && fits(5.1));
+        assert!(!fits(4.99) && !fits(5.11));
+    }
+
+    #[test]
+    fn a_taps_feed_is_its_pitch_times_the_speed() {
+        let tap = Drill { cycle: HoleCycle::Tap { pitch: 0.8 }, ..drill(HoleDepth::Tip) };
+        let common = crate::from_toml(&crate::tests::setup::levels()).unwrap().operations.remove(0).common;
+        assert_eq!(tap.plunge_feed(&common, Some(500.0)), 400.0);
+        assert_eq!(drill(HoleDepth::Tip).plunge_feed(&common, Some(500.0)), common.feeds.plunge);
+    }
+}
