@@ -21,9 +21,7 @@ def _step() -> None:
     pytest.importorskip("OCP", reason="needs the step extra")
 
 
-def job(
-    machine: str = "linuxcnc", diameter: float = 5.0, faces: Any = "all", tip: float = 0.0, **keys: Any
-) -> sc.Job:
+def job(machine: str = "linuxcnc", diameter: float = 5.0, faces: Any = "all", tip: float = 0.0, **keys: Any) -> sc.Job:
     profile = {"kind": "v", "tip_diameter": tip, "angle_deg": 118.0, "diameter": diameter}
     return sc.Job.from_dict(
         {
