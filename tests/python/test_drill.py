@@ -6,10 +6,10 @@ import re
 from typing import Any
 
 import pytest
-import rs274
-from meridian import FIXTURES
 
+import rs274
 import styluscam as sc
+from meridian import FIXTURES
 
 POINT = 1.5021515475689
 """Length of the point of a drill of 5 mm and 118 degrees, mm."""
