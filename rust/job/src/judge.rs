@@ -282,8 +282,8 @@ pub fn coverage(
 ) -> Result<Vec<FaceCoverage>, JobError> {
     let against = Against::new(job, scene)?;
     let mut faces = Vec::new();
-    // what leaning tools leave is measured along their surfaces
-    for (index, section) in job.operations_of(scene.channel).filter(|(_, section)| !section.kind().leans()) {
+    // what leaning tools and drills leave is measured by itself
+    for (index, section) in job.operations_of(scene.channel).filter(|(_, section)| section.kind().owes_faces()) {
         faces.extend(faces_of(job, scene, section, index)?);
     }
     let subject = against.subject(&judgement.unknown_positions);
@@ -383,17 +383,18 @@ fn expected(
             JobError::document("unknown", format!("operations[{index}].tool"), message, "name one of [tools]")
         })?;
         let tool = &tools[number];
+        let turns = spindle::turns(job, scene, tool, section, index)?;
         Ok::<_, JobError>(ExpectedOperation {
             id: scene.operation_id(section.id(index)),
             tool: number,
             cut: section.kind().cut_feed(common),
-            plunge: common.feeds.plunge,
+            plunge: section.kind().plunge_feed(common, turns.map(|(rpm, _)| rpm)),
             highest: section.kind().highest_feed(common),
             leads: (common.lead != LeadForm::None).then(|| [common.feeds.approaching(), common.feeds.leaving()]),
             low_links: (common.links == LinkHeight::Low).then_some(common.link_margin),
             slows_at_corners: common.slow_corners,
             keeps_pace: scene.opposite.is_some(),
-            spindle: spindle::turns(job, scene, tool, section, index)?,
+            spindle: turns,
             max_corner: common.max_corner_deg.map(f64::to_radians),
             flood: common.coolant == Coolant::Flood,
             expectation: expectation(job, scene, tool, section, index)?,
@@ -432,8 +433,8 @@ fn expectation(
     check_part(job, (scene, &faces), tool, section, index)?;
     Ok(Expectation {
         contact: section.kind().contact(),
-        // what leaning tools owe their faces is measured along them
-        selected: scene.facing_up(if section.kind().leans() { &[] } else { &faces }),
+        // what leaning tools and drills owe their faces is measured by itself
+        selected: scene.facing_up(if section.kind().owes_faces() { &faces } else { &[] }),
         region: region_of(job, scene, section, index, &faces)?.expected(),
         to_leave: match section.kind().contact() {
             Contact::Touch => section.common.stock_to_leave(),

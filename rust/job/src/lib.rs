@@ -19,6 +19,7 @@ mod file_units;
 mod fixture;
 mod forming;
 mod heights;
+mod holes;
 mod judge;
 mod limits;
 mod materials;

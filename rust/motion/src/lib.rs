@@ -20,7 +20,7 @@ mod step;
 mod watch;
 
 pub use arc::{Arc, ArcPath, Plane};
-pub use cycle::{Cycle, CycleKind, CycleStart, CycleStep};
+pub use cycle::{Cycle, CycleKind, CycleStart, CycleStep, MOST_PECKS};
 pub use dynamics::{Cornering, Dynamics};
 pub use event::{Event, EventKind, SpindleDirection, Upcoming};
 pub use feed_rounding::FeedRounding;

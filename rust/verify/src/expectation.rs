@@ -81,6 +81,8 @@ pub enum Passes {
     Clearing(Clearing),
     /// Along ruled surfaces, touched with the side of a tool that leans: what the moving tool leaves of them is checked.
     Flank(FlankPasses),
+    /// Straight down into holes: each is checked.
+    Drilling(Drilling),
     /// Nothing is known of their order; the report gives the reason.
     Unordered {
         /// Why they are not checked, as half a sentence.
@@ -135,6 +137,34 @@ pub struct FlankFace {
     pub rails: [NurbsCurve; 2],
     /// Whether the outside is to the left, seen along the rails with the second above the first.
     pub is_left: bool,
+}
+
+/// How holes are drilled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drilling {
+    /// The holes, in any order.
+    pub holes: Vec<DrilledHole>,
+    /// The deepest that the tool goes at once, mm; infinite where it goes down in one.
+    pub peck: f64,
+    /// Wait at the bottom, s.
+    pub dwell: f64,
+    /// Whether the spindle turns back on the way up.
+    pub is_tapping: bool,
+}
+
+/// A hole that the tool goes down into along its axis, work coordinates, mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrilledHole {
+    /// As a person names it.
+    pub name: String,
+    /// Its axis in plan.
+    pub at: [f64; 2],
+    /// Its radius.
+    pub radius: f64,
+    /// Where its wall begins.
+    pub top: f64,
+    /// The height that the tip reaches.
+    pub bottom: f64,
 }
 
 /// Layers in which passes that are not themselves one below the other press a sheet down.
@@ -192,7 +222,7 @@ impl Expectation {
         match &self.passes {
             Passes::Ordered(passes) => std::slice::from_ref(passes),
             Passes::Crossed(sets) => sets,
-            Passes::Clearing(_) | Passes::Flank(_) | Passes::Unordered { .. } => &[],
+            Passes::Clearing(_) | Passes::Flank(_) | Passes::Drilling(_) | Passes::Unordered { .. } => &[],
         }
     }
 
@@ -210,7 +240,7 @@ impl Expectation {
     pub(crate) fn clearing(&self) -> Option<&Clearing> {
         match &self.passes {
             Passes::Clearing(clearing) => Some(clearing),
-            Passes::Ordered(_) | Passes::Crossed(_) | Passes::Flank(_) | Passes::Unordered { .. } => None,
+            _ => None,
         }
     }
 
@@ -218,7 +248,15 @@ impl Expectation {
     pub(crate) fn flank(&self) -> Option<&FlankPasses> {
         match &self.passes {
             Passes::Flank(passes) => Some(passes),
-            Passes::Ordered(_) | Passes::Crossed(_) | Passes::Clearing(_) | Passes::Unordered { .. } => None,
+            _ => None,
+        }
+    }
+
+    /// How it drills, where it does.
+    pub(crate) fn drilling(&self) -> Option<&Drilling> {
+        match &self.passes {
+            Passes::Drilling(drilling) => Some(drilling),
+            _ => None,
         }
     }
 

@@ -2,12 +2,14 @@
 //!
 //! A new kind is one constant here and one variant of [`FindingKind`].
 
+mod drilled;
 mod stock;
 
 use styluscam_motion::Move;
 
 use crate::findings::{FindingKind, Severity};
 
+pub(crate) use drilled::*;
 pub(crate) use stock::*;
 
 /// A kind of fault, and how it is reported.

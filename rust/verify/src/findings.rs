@@ -55,6 +55,12 @@ pub enum FindingKind {
     MissingLevel,
     /// Rows are farther apart than expected, or end too soon.
     MissingRow,
+    /// A hole is not drilled down to its depth.
+    MissingHole,
+    /// A drill goes down where no hole is, or deeper than one is.
+    StrayHole,
+    /// A drill goes deeper at once than a peck.
+    Peck,
     /// A tool that clears stock engages more of it at once than it may.
     Engagement,
     /// Stock is left that the tool reaches.
@@ -201,6 +207,9 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::MissingPass, "missing pass"),
         (Kind::MissingLevel, "missing level"),
         (Kind::MissingRow, "missing row"),
+        (Kind::MissingHole, "missing hole"),
+        (Kind::StrayHole, "drilled where no hole is"),
+        (Kind::Peck, "peck deeper than asked"),
         (Kind::Engagement, "engagement angle too large"),
         (Kind::Uncleared, "stock not cleared"),
         (Kind::StockToLeave, "stock cut that is to be left"),

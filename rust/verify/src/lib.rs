@@ -51,6 +51,7 @@ mod flats;
 mod frame;
 mod groups;
 mod holding;
+mod holes;
 mod in_layers;
 mod judge;
 mod leaning;
@@ -96,7 +97,8 @@ pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
 };
 pub use expectation::{
-    Clearing, Contact, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers, OrderedPasses, Passes,
+    Clearing, Contact, DrilledHole, Drilling, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers,
+    OrderedPasses, Passes,
 };
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};

@@ -11,6 +11,7 @@ use crate::clearance::{Prober, Touch};
 use crate::expectation::ExpectedOperation;
 use crate::frame::Frame;
 use crate::holding::{colliders, Collider};
+use crate::holes;
 use crate::region_faults::Regions;
 use crate::samples::{lowest, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};
@@ -249,9 +250,12 @@ impl<'a> Walk<'a> {
             return found;
         }
         let stroke = stroke_of(segment, prober.body);
-        found.deepest = deepest_of(segment, self.gouge_level(), prober);
+        let in_hole = holes::hole_of(segment, self.subject, self.limits).is_some();
+        let level = if in_hole { holes::gouge_level(self.subject, self.limits) } else { self.gouge_level() };
+        found.deepest = deepest_of(segment, level, prober);
         found.samples = usize::from(found.deepest.is_some());
-        if segment.kind == SegmentKind::Rapid && segment.descends() && found.deepest.is_none() {
+        // a drill is next to its wall: how deep a rapid may go there is another question
+        if !in_hole && segment.kind == SegmentKind::Rapid && segment.descends() && found.deepest.is_none() {
             found.landing = deepest(Stroke::still(stroke.to), self.limits.rapid_gap, prober);
         }
         found

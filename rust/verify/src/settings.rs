@@ -76,7 +76,10 @@ fn spindle_fault(
     segment: &Segment,
     turns: Option<(f64, SpindleDirection)>,
 ) -> Option<Fault> {
-    let (found, expected) = (signed(turns), signed(operation.spindle));
+    // a tap turns back on its way up
+    let taps = operation.expectation.drilling().is_some_and(|drilling| drilling.is_tapping);
+    let back = if taps && segment.kind == SegmentKind::Retract { -1.0 } else { 1.0 };
+    let (found, expected) = (signed(turns), back * signed(operation.spindle));
     let same = (found - expected).abs() <= 0.5 + SAME_FEED * expected.abs();
     (!same).then(|| segment.fault(&faults::SPINDLE).measured(found, expected))
 }

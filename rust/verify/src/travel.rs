@@ -5,11 +5,11 @@ use styluscam_motion::{EventKind, FeedMode, Move, MoveKind, Program};
 use crate::assignment::Assignment;
 use crate::faults::{self, Fault};
 use crate::findings::{Finding, FindingKind, Severity};
-use crate::low_links;
 use crate::segments::{is_in_range, Segment, SegmentKind};
 use crate::subject::{Limits, Subject, ToolCalls};
 use crate::tolerances::SLACK;
 use crate::unknown::{self, standing_low};
+use crate::{holes, low_links};
 
 /// Faults of the moves' text, in the order of the moves.
 pub(crate) fn faults(
@@ -35,7 +35,7 @@ pub(crate) fn faults(
     faults.extend(unsafe_end(program, segments, subject, limits));
     faults.extend(dwells(program, segments, subject, limits));
     faults.extend(stops(segments, subject, limits));
-    faults.extend(segments.iter().filter(high).filter_map(|segment| deep_rapid(segment, limits)));
+    faults.extend(segments.iter().filter(high).filter_map(|segment| deep_rapid(segment, subject, limits)));
     faults.extend(planes_not_needed(program, subject));
     faults.extend(no_end(program, subject));
     faults
@@ -60,6 +60,9 @@ fn dwells(program: &Program, segments: &[Segment], subject: &Subject, limits: &L
     });
     let down = waits.filter_map(|(before, seconds)| {
         let segment = standing_low(segments, before, subject, limits)?;
+        if holes::may_wait(segment, seconds, subject, limits) {
+            return None;
+        }
         Some(segment.fault(&faults::DWELL).measured(seconds, 0.0))
     });
     down.collect()
@@ -73,8 +76,10 @@ fn stops(segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault>
 }
 
 /// A rapid down to where only feeds should go.
-fn deep_rapid(segment: &Segment, limits: &Limits) -> Option<Fault> {
+fn deep_rapid(segment: &Segment, subject: &Subject, limits: &Limits) -> Option<Fault> {
     let deep = segment.kind == SegmentKind::Rapid && segment.descends() && segment.end[2] < limits.retract - SLACK;
+    // how deep one may go in a hole follows from how far it is drilled: `holes`
+    let deep = deep && holes::hole_of(segment, subject, limits).is_none();
     deep.then(|| segment.fault(&faults::DEEP_RAPID).measured(segment.end[2], limits.retract))
 }
 

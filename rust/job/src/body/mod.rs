@@ -22,6 +22,7 @@ mod tests;
 pub use formable::Unformable;
 pub use heights::{Border, Heights};
 pub use hollows::{FaceLook, Hollows};
+pub(crate) use rays::Rays;
 pub use sampled::Body;
 pub(crate) use samples::in_triangle;
 pub use shell::Shell;

@@ -7,7 +7,7 @@ use styluscam_motion::SpindleDirection;
 
 use super::rules::{cutting_data, Cut, CuttingData, MachineLimits};
 use super::table::CuttingTable;
-use crate::operations::{OperationSection, Spindle};
+use crate::operations::{Machining, OperationSection, Spindle};
 use crate::{check, resolve, JobDocument, JobError};
 
 /// What an operation got.
@@ -92,7 +92,7 @@ fn data_of(
         JobError::document("missing", format!("tools.{name}.{key}"), message, hint)
     };
     let document = tool.document();
-    let (work, engagement) = section.kind().cutting();
+    let Machining { work, engagement, pitch } = section.kind().cutting();
     let cut = Cut {
         cutter: &tool.cutter(),
         cutter_material: document.cutter_material.ok_or_else(|| missing("cutter_material", "\"carbide\""))?,
@@ -100,7 +100,7 @@ fn data_of(
         material,
         work,
         engagement,
-        pitch: None,
+        pitch,
         limits,
     };
     cutting_data(&cut, table).map_err(|error| match error.location().as_str() {

@@ -310,7 +310,8 @@ impl OperationKind for Flank {
                 Fact::count(passes, "pass", "passes"),
                 Fact::count(count, "position", "positions"),
             ],
-            waits: Vec::new(),
+            events: Vec::new(),
+            cycles: Vec::new(),
             surface: None,
             moves,
         })

@@ -2,13 +2,24 @@
 
 use serde::Serialize;
 use styluscam_geometry::ToolBody;
-use styluscam_motion::Move;
+use styluscam_motion::{Cycle, EventKind, Move};
 use styluscam_verify::{Contact, Layers, Passes};
 
 use super::{Areas, Context, Effort, Fact, SurfaceFacts};
 use crate::cutting::{CuttingWork, Engagement};
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys, Scene};
+
+/// What an operation's passes are, for a table of cutting data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Machining {
+    /// The work.
+    pub work: CuttingWork,
+    /// How the tool is engaged, as far as the operation's keys state that.
+    pub engagement: Engagement,
+    /// Rise of a thread that is tapped, mm per revolution.
+    pub pitch: Option<f64>,
+}
 
 /// A kind of operation, with its own keys.
 pub trait OperationKind {
@@ -38,8 +49,18 @@ pub trait OperationKind {
     }
 
     /// The work that its passes are, and how its tool is engaged, as far as its keys state that.
-    fn cutting(&self) -> (CuttingWork, Engagement) {
-        (CuttingWork::FinishMilling, Engagement::default())
+    fn cutting(&self) -> Machining {
+        Machining { work: CuttingWork::FinishMilling, engagement: Engagement::default(), pitch: None }
+    }
+
+    /// The feed straight down, mm/min; `rpm` is the spindle's.
+    fn plunge_feed(&self, common: &OperationKeys, _rpm: Option<f64>) -> f64 {
+        common.feeds.plunge
+    }
+
+    /// Whether what it leaves of its faces is asked from above.
+    fn owes_faces(&self) -> bool {
+        !self.leans()
     }
 
     /// The highest of its feeds, mm/min, where they depend on what is cut.
@@ -141,8 +162,10 @@ pub struct StarterPasses {
 pub struct Planned {
     /// Its moves.
     pub moves: Vec<Move>,
-    /// Where the tool waits: the numbers of the moves behind which it does, ascending, and for how long, s.
-    pub waits: Vec<(usize, f64)>,
+    /// What happens behind moves: their numbers, ascending, and what.
+    pub events: Vec<(usize, EventKind)>,
+    /// Its holes by canned cycles; `first` counts its own moves.
+    pub cycles: Vec<Cycle>,
     /// Its extent for the summary: "30 loops on 12 levels".
     pub words: String,
     /// Its extent for the program's header: "12 levels, 30 passes".

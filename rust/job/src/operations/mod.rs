@@ -38,7 +38,7 @@ pub use effort::{Areas, Effort};
 pub(crate) use facts::counted;
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
 pub use keys::{Coolant, Direction, Edges, Feeds, Fit, LeadForm, LinkHeight, OperationKeys, Spindle};
-pub use kind::{About, OperationKind, PassContext, PassSpacing, Planned, Serves, StarterPasses};
+pub use kind::{About, Machining, OperationKind, PassContext, PassSpacing, Planned, Serves, StarterPasses};
 
 kinds! {
     /// The kinds of operations, each with its own keys.
@@ -49,6 +49,7 @@ kinds! {
         meridian::Meridian = "meridian",
         pocket::Pocket = "pocket",
         flank::Flank = "flank",
+        drill::Drill = "drill",
     }
 }
 

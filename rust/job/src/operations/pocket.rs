@@ -21,8 +21,8 @@ use super::levels::{self, LevelKeys};
 use super::step::{Step, StepLimits};
 use super::surface::sense;
 use super::{
-    About, Areas, Context, Effort, Fact, Fit, LeadForm, LinkHeight, OperationKind, PassContext, PassSpacing, Planned,
-    Serves,
+    About, Areas, Context, Effort, Fact, Fit, LeadForm, LinkHeight, Machining, OperationKind, PassContext, PassSpacing,
+    Planned, Serves,
 };
 use crate::cutting::{CuttingWork, Engagement};
 use crate::numbers::shown;
@@ -271,7 +271,8 @@ impl OperationKind for Pocket {
             facts.push(slow);
         }
         Ok(Planned {
-            waits: Vec::new(),
+            events: Vec::new(),
+            cycles: Vec::new(),
             words: format!("{} on {}", counted(cleared.areas, "area", "areas"), counted(levels, "level", "levels")),
             note: format!("{levels} levels, {} areas", cleared.areas),
             facts,
@@ -280,9 +281,10 @@ impl OperationKind for Pocket {
         })
     }
 
-    fn cutting(&self) -> (CuttingWork, Engagement) {
+    fn cutting(&self) -> Machining {
         let angle_deg = Some(self.engagement_deg + self.growth_deg);
-        (CuttingWork::RoughMilling, Engagement { angle_deg, ..Engagement::default() })
+        let engagement = Engagement { angle_deg, ..Engagement::default() };
+        Machining { work: CuttingWork::RoughMilling, engagement, pitch: None }
     }
 
     fn highest_feed(&self, common: &OperationKeys) -> Option<f64> {

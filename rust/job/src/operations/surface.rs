@@ -2,7 +2,7 @@
 //! and they are linked; what becomes of the faces is measured beside.
 
 use styluscam_geometry::{Tool, ToolBody};
-use styluscam_motion::{Move, SpindleDirection};
+use styluscam_motion::{EventKind, Move, SpindleDirection};
 use styluscam_post::machine::CommentForm;
 use styluscam_toolpath::{
     budget::Budget,
@@ -276,8 +276,10 @@ pub fn plan(kind: &impl FollowsSurface, context: &Context<'_>) -> Result<Planned
         undercut: undercut(scene, &context.faces),
         faces: context.faces.clone(),
     };
+    let wait = |(behind, seconds)| (behind, EventKind::Dwell { seconds });
     Ok(Planned {
-        waits: kind.waits(&moves, context.common),
+        events: kind.waits(&moves, context.common).into_iter().map(wait).collect(),
+        cycles: Vec::new(),
         words: kind.words(groups, passes),
         note: kind.note(groups, passes),
         facts: of_passes.into_iter().chain(kind.task_facts(&task)).chain(fitted).collect(),

@@ -61,8 +61,9 @@ fn every_key_of_every_kind_has_a_help_text() {
 fn every_kind_plans_and_says_what_it_planned() {
     let (part, watch) = (frustum(), Watch::default());
     let (upright, turning) = (machine(), Machine::shipped("linuxcnc-trunnion").unwrap());
-    // a pocket takes a minute with a tool this small: tests/python/test_pocket_operation.py plans a smaller one
-    for kind in kinds().filter(|kind| Operation::NAMES[*kind] != "pocket") {
+    // a pocket takes a minute with a tool this small, and a frustum has no holes: tests/python/test_pocket_operation.py and
+    // tests/python/test_drill.py plan those
+    for kind in kinds().filter(|kind| !["pocket", "drill"].contains(&Operation::NAMES[*kind])) {
         let job = job(kind).unwrap();
         let scene = Scene::new(&job, crate::MAIN_CHANNEL, &part).unwrap();
         let machine = if job.operations[0].kind().leans() { &turning } else { &upright };
@@ -83,6 +84,7 @@ fn every_kind_plans_and_says_what_it_planned() {
             Passes::Crossed(sets) => assert!(sets.iter().all(|set| set.pitch.largest() > 0.0), "{name}"),
             Passes::Clearing(clearing) => assert!(clearing.angle > 0.0 && clearing.pitch.largest() > 0.0, "{name}"),
             Passes::Flank(flank) => assert!(flank.max_error > 0.0 && flank.faces.len() == 4, "{name}"),
+            Passes::Drilling(drilling) => assert!(!drilling.holes.is_empty(), "{name}"),
             Passes::Unordered { reason } => {
                 assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");
             }

@@ -1,7 +1,7 @@
 //! A channel's program as it grows, operation by operation.
 
 use serde::Serialize;
-use styluscam_motion::{Event, EventKind, Move, OperationRecord, Program, SpindleDirection, ToolRecord};
+use styluscam_motion::{Cycle, Event, EventKind, Move, OperationRecord, Program, SpindleDirection, ToolRecord};
 use styluscam_post::Machine;
 use styluscam_verify::{FrameLevel, OrderedPasses};
 
@@ -88,14 +88,15 @@ impl Channel {
         record: &ToolRecord,
         Added { planned, turns, lines, frame, wait }: Added,
     ) {
-        let Planned { moves, waits, words, note, facts, surface } = planned;
+        let Planned { moves, events, cycles, words, note, facts, surface } = planned;
         let program = &mut self.program;
         let (kind, tool) = (section.operation.name(), tool_index(program, record));
         program.events.extend(events_before(program, section, tool, turns));
         let first = program.moves.len();
         program.events.extend(wait.map(|kind| Event { before: first + 1, kind }));
-        let wait = |(behind, seconds)| Event { before: first + behind + 1, kind: EventKind::Dwell { seconds } };
-        program.events.extend(waits.into_iter().map(wait));
+        let event = |(behind, kind)| Event { before: first + behind + 1, kind };
+        program.events.extend(events.into_iter().map(event));
+        program.cycles.extend(cycles.into_iter().map(|cycle| Cycle { first: first + cycle.first, ..cycle }));
         self.frame = frame.last().map_or(self.frame, |level| level.z);
         program.events.extend(frame.into_iter().map(|level| clamp::remark(level, first)));
         program.operations.push(OperationRecord { id: id.clone(), kind: kind.to_owned(), tool });

@@ -37,7 +37,8 @@ pub fn planned(
         let count = main.len();
         let planned = Planned {
             moves: main,
-            waits: Vec::new(),
+            events: Vec::new(),
+            cycles: Vec::new(),
             words: summary.words,
             note: summary.note,
             facts: summary.facts,
@@ -45,7 +46,8 @@ pub fn planned(
         };
         let follows = Planned {
             moves: below,
-            waits: Vec::new(),
+            events: Vec::new(),
+            cycles: Vec::new(),
             words: format!("{count} moves, as many as the main tool's, {divided} of them for this side"),
             note: format!("follows the main tool, {count} moves"),
             facts: vec![Fact::count(count, "move", "moves")],

@@ -227,7 +227,8 @@ impl Machine {
     }
 
     /// Whether a hole is posted as a cycle; cycles have no inverse time.
-    pub(crate) fn takes_cycle(&self, cycle: &Cycle) -> bool {
+    #[must_use]
+    pub fn takes_cycle(&self, cycle: &Cycle) -> bool {
         let feeds = self.feed.mode != FeedMode::InverseTime;
         let unit = self.resolution_mm();
         let deep = cycle.retract - cycle.bottom >= LEAST_DEPTH * unit && (cycle.peck <= 0.0 || cycle.peck >= unit);

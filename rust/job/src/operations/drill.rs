@@ -1,0 +1,504 @@
+//! Drill: round upright holes of the part, by canned cycles.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use styluscam_geometry::Vector;
+use styluscam_motion::{
+    Cycle, CycleKind, CycleStart, CycleStep, EventKind, Move, MoveKind, SpindleDirection, MOST_PECKS,
+};
+use styluscam_toolpath::{shortly_ordered, Air, Freedom, Pass, PathPoint, Seam, Sense};
+use styluscam_verify::{Contact, DrilledHole, Drilling, Passes};
+
+use super::facts::counted;
+use super::{
+    About, Areas, Context, Effort, Fact, Fit, LeadForm, LinkHeight, Machining, OperationKind, PassContext, PassSpacing,
+    Planned, Serves, Spindle,
+};
+use crate::cutting::{CuttingWork, Engagement};
+use crate::holes::{holes_among, leaning_hole, Hole};
+use crate::limits::GOUGE;
+use crate::numbers::shown;
+use crate::{JobError, OperationKeys};
+
+/// Holes lean from this angle on, rad.
+const LEANS: f64 = 1e-3;
+
+/// Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
+/// cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Drill {
+    /// What is done at each hole.
+    #[serde(default)]
+    #[schemars(extend("x-example" = "{ kind = \"peck\", peck = 3.0 }"))]
+    pub cycle: HoleCycle,
+    /// How deep blind holes are drilled. Through holes are drilled to their full diameter.
+    #[serde(default)]
+    pub depth: HoleDepth,
+    /// How far the tool's full diameter goes on below through holes, mm.
+    #[serde(default = "breakthrough")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
+    pub breakthrough: f64,
+    /// How far above a hole's top the tool comes down at rapid, mm.
+    #[serde(default = "retract_height")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
+    pub retract_height: f64,
+    /// By how much holes may be wider than the tool, mm: for core holes of threads, holes that are reamed or bored afterwards.
+    #[serde(default = "diameter_tolerance")]
+    #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
+    pub diameter_tolerance: f64,
+}
+
+/// What is done at a hole.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum HoleCycle {
+    /// Down at feed, up at rapid.
+    Drill {
+        /// Wait at the bottom, s.
+        #[serde(default)]
+        #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 100.0))]
+        dwell: f64,
+    },
+    /// Down in pecks, out of the hole after each.
+    Peck {
+        /// Depth of a peck, mm.
+        #[schemars(extend("x-unit" = "mm", "minimum" = 0.01, "maximum" = 1000.0))]
+        peck: f64,
+    },
+    /// Down in pecks, a little up after each.
+    ChipBreak {
+        /// Depth of a peck, mm.
+        #[schemars(extend("x-unit" = "mm", "minimum" = 0.01, "maximum" = 1000.0))]
+        peck: f64,
+    },
+    /// A thread: the spindle turns in step with the feed, and back; left-hand where it turns counterclockwise.
+    Tap {
+        /// Rise of the thread, mm per revolution: with the spindle's speed it is the feed.
+        #[schemars(extend("x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
+        pitch: f64,
+    },
+    /// Down and up at feed.
+    Bore {
+        /// Wait at the bottom, s.
+        #[serde(default)]
+        #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 100.0))]
+        dwell: f64,
+    },
+}
+
+impl Default for HoleCycle {
+    fn default() -> Self {
+        Self::Drill { dwell: 0.0 }
+    }
+}
+
+impl HoleCycle {
+    fn kind(self, direction: SpindleDirection) -> CycleKind {
+        match (self, direction) {
+            (Self::Drill { .. }, _) => CycleKind::Drill,
+            (Self::Peck { .. }, _) => CycleKind::Peck,
+            (Self::ChipBreak { .. }, _) => CycleKind::ChipBreak,
+            (Self::Tap { .. }, SpindleDirection::Clockwise) => CycleKind::Tap,
+            (Self::Tap { .. }, SpindleDirection::Counterclockwise) => CycleKind::LeftTap,
+            (Self::Bore { .. }, _) => CycleKind::Bore,
+        }
+    }
+
+    fn dwell(self) -> f64 {
+        match self {
+            Self::Drill { dwell } | Self::Bore { dwell } => dwell,
+            Self::Peck { .. } | Self::ChipBreak { .. } | Self::Tap { .. } => 0.0,
+        }
+    }
+
+    fn peck(self) -> Option<f64> {
+        match self {
+            Self::Peck { peck } | Self::ChipBreak { peck } => Some(peck),
+            Self::Drill { .. } | Self::Tap { .. } | Self::Bore { .. } => None,
+        }
+    }
+
+    fn pitch(self) -> Option<f64> {
+        match self {
+            Self::Tap { pitch } => Some(pitch),
+            _ => None,
+        }
+    }
+}
+
+/// How deep blind holes are drilled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum HoleDepth {
+    /// The tool's tip reaches the floor: of a flat floor its point leaves a cone.
+    #[default]
+    Tip,
+    /// The tool's full diameter reaches the end of the wall: for floors that are modelled as cones.
+    FullDiameter,
+}
+
+/// A tool as holes see it, mm.
+#[derive(Clone, Copy)]
+struct DrillShape {
+    diameter: f64,
+    /// From its tip to its full diameter.
+    point: f64,
+}
+
+impl DrillShape {
+    fn of(body: &styluscam_geometry::ToolBody) -> Self {
+        Self { diameter: 2.0 * body.max_radius(), point: body.max_height() }
+    }
+}
+
+impl Drill {
+    pub(super) const ABOUT: About = About {
+        purpose: "for round upright holes",
+        serves: Serves::OnRequest,
+        starter: |_| "cycle = { kind = \"drill\" }  # or peck, chip-break, tap, bore\n".to_owned(),
+    };
+
+    /// Whether a hole is as wide as the tool, or wider by no more than the tolerance.
+    fn fits(&self, hole: &Hole, shape: DrillShape) -> bool {
+        let wider = hole.diameter() - shape.diameter;
+        (-2.0 * GOUGE..=self.diameter_tolerance + 2.0 * GOUGE).contains(&wider)
+    }
+
+    /// The height that the tip reaches in a hole, mm.
+    fn bottom(&self, hole: &Hole, shape: DrillShape) -> f64 {
+        let full = hole.bottom - shape.point;
+        match (hole.floor, self.depth) {
+            (None, _) => full - self.breakthrough,
+            (Some(floor), HoleDepth::Tip) => full.max(floor),
+            (Some(_), HoleDepth::FullDiameter) => full,
+        }
+    }
+
+    /// The holes that are drilled.
+    fn holes(&self, given: &PassContext<'_>) -> Vec<Hole> {
+        let shape = DrillShape::of(given.body);
+        holes_among(given.scene, given.faces).into_iter().filter(|hole| self.fits(hole, shape)).collect()
+    }
+
+    /// Named faces that are no wall of an upright hole that the tool fits.
+    fn check_named(&self, given: &PassContext<'_>, found: &[Hole], path: &str) -> Result<(), JobError> {
+        let refused =
+            |code, message: String, hint: &str| Err(JobError::document(code, format!("{path}.faces"), message, hint));
+        for face in given.faces.iter().filter(|face| !found.iter().any(|hole| hole.faces.contains(face))) {
+            let angle = leaning_hole(given.scene, *face).filter(|angle| *angle > LEANS);
+            if let Some(angle) = angle {
+                let message = format!("Face{face} is a hole whose axis leans by {:.2} degrees", angle.to_degrees());
+                return refused("leaning-hole", message, "turn the part with setup.up, so that the hole is upright");
+            }
+            let message = format!("Face{face} is no wall of a round upright hole that is open above");
+            return refused("no-hole", message, "name walls of holes only; see `styluscam part show`");
+        }
+        let shape = DrillShape::of(given.body);
+        match found.iter().find(|hole| !self.fits(hole, shape)) {
+            Some(hole) => Err(self.misfit(hole, shape, path)),
+            None => Ok(()),
+        }
+    }
+
+    /// That a hole is narrower, or too much wider, than the tool.
+    fn misfit(&self, hole: &Hole, shape: DrillShape, path: &str) -> JobError {
+        let (name, wide) = (hole.name(), hole.diameter());
+        let wider = wide - shape.diameter;
+        if wider < 0.0 {
+            let message = format!("the hole {name} is {wide:.3} mm wide, {:.3} mm narrower than the tool", -wider);
+            return JobError::document("narrow-hole", format!("{path}.tool"), message, "take a narrower tool");
+        }
+        let message = format!(
+            "the hole {name} is {wide:.3} mm wide, {wider:.3} mm wider than the tool: at most diameter_tolerance = {}",
+            shown(self.diameter_tolerance)
+        );
+        let hint = format!("take a tool of {wide:.3} mm, or set diameter_tolerance = {:.3}", wider + 0.001);
+        JobError::document("wide-hole", format!("{path}.diameter_tolerance"), message, hint)
+    }
+}
+
+impl OperationKind for Drill {
+    fn check(&self, common: &OperationKeys, path: &str) -> Result<(), JobError> {
+        let refused = [
+            ("boundary", common.boundary.is_some()),
+            ("check_faces", common.check_faces.is_some()),
+            ("max_corner_deg", common.max_corner_deg.is_some()),
+            ("edges", common.edges.is_some()),
+            ("lead", common.lead != LeadForm::None),
+            ("links", common.links != LinkHeight::Clearance),
+            ("z_bottom", common.z_bottom.is_some()),
+            ("fit", common.fit != Fit::Lines),
+            ("slow_corners", common.slow_corners),
+            ("radial_stock_to_leave", common.radial_stock_to_leave > 0.0),
+            ("axial_stock_to_leave", common.axial_stock_to_leave > 0.0),
+        ];
+        if let Some((key, _)) = refused.into_iter().find(|(_, is_stated)| *is_stated) {
+            let message = format!("drilling does not follow {key}: it goes down the axes of holes, to their depth");
+            return Err(JobError::document("conflict", format!("{path}.{key}"), message, format!("remove {key}")));
+        }
+        if self.cycle.pitch().is_some() && !matches!(common.spindle, Spindle::Fixed { .. }) {
+            let message = "a tap's feed is its pitch times the spindle's speed, and the spindle is not driven";
+            let hint = "set spindle = { mode = \"fixed\", rpm = 300.0 }";
+            return Err(JobError::document("conflict", format!("{path}.spindle"), message, hint));
+        }
+        Ok(())
+    }
+
+    fn cutting(&self) -> Machining {
+        let pitch = self.cycle.pitch();
+        let work = if pitch.is_some() { CuttingWork::Tapping } else { CuttingWork::Drilling };
+        Machining { work, engagement: Engagement::default(), pitch }
+    }
+
+    fn cuts_upright_walls(&self) -> bool {
+        true
+    }
+
+    fn owes_faces(&self) -> bool {
+        false
+    }
+
+    fn plunge_feed(&self, common: &OperationKeys, rpm: Option<f64>) -> f64 {
+        self.cycle.pitch().zip(rpm).map_or(common.feeds.plunge, |(pitch, rpm)| pitch * rpm)
+    }
+
+    fn cut_feed(&self, common: &OperationKeys) -> f64 {
+        let rpm = match common.spindle {
+            Spindle::Fixed { rpm, .. } => Some(rpm),
+            Spindle::Off | Spindle::Free | Spindle::Rolling => None,
+        };
+        self.plunge_feed(common, rpm)
+    }
+
+    fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
+        if context.scene.sheet.is_some() {
+            let message = "holes are drilled into solids, and this job forms a sheet";
+            return Err(JobError::document("conflict", context.path.clone(), message, "remove setup.sheet"));
+        }
+        let body = context.tool.body(None);
+        let given = PassContext {
+            scene: context.scene,
+            faces: &context.faces,
+            smallest_feature: context.common.smallest_feature,
+            top: context.heights.top.unwrap_or(context.scene.top),
+            body: &body,
+        };
+        let holes = self.holes(&given);
+        let skipped = holes_among(context.scene, &context.faces).len() - holes.len();
+        let (holes, across) = in_order(context, holes)?;
+        let mut drilled = self.drilled(context, &holes, DrillShape::of(&body))?;
+        let through = holes.iter().filter(|hole| hole.floor.is_none()).count();
+        drilled.facts.push(Fact::length("across", across, "across from hole to hole"));
+        let skipped = (skipped > 0).then(|| {
+            let words = format!("{} of another diameter left out", counted(skipped, "hole", "holes"));
+            Fact { fact: "other_holes", value: skipped as f64, unit: "", words }
+        });
+        drilled.facts.extend(skipped);
+        Ok(Planned {
+            words: format!("{}, {through} of them through", counted(holes.len(), "hole", "holes")),
+            note: counted(holes.len(), "hole", "holes"),
+            ..drilled
+        })
+    }
+
+    fn contact(&self) -> Contact {
+        Contact::Clear
+    }
+
+    fn check_part(&self, given: &PassContext<'_>, are_named: bool, path: &str) -> Result<(), JobError> {
+        let found = holes_among(given.scene, given.faces);
+        let shape = DrillShape::of(given.body);
+        if are_named {
+            self.check_named(given, &found, path)?;
+        }
+        let fitting: Vec<&Hole> = found.iter().filter(|hole| self.fits(hole, shape)).collect();
+        if fitting.is_empty() {
+            let wider = |hole: &&Hole| (hole.diameter() - shape.diameter).abs();
+            return Err(match found.iter().min_by(|a, b| wider(a).total_cmp(&wider(b))) {
+                Some(hole) => self.misfit(hole, shape, path),
+                None => {
+                    let message = "none of the faces is the wall of a round upright hole that is open above";
+                    let hint = "select walls of holes; see `styluscam part show`";
+                    JobError::document("no-hole", format!("{path}.faces"), message, hint)
+                }
+            });
+        }
+        for hole in fitting {
+            let entered = hole.floor.map_or(0.0, |floor| floor - self.bottom(hole, shape));
+            if entered > GOUGE {
+                let message = format!(
+                    "the hole {} has a floor that the tool's point would enter by {entered:.3} mm before its full diameter is at the \
+                     end of the wall",
+                    hole.name()
+                );
+                let hint =
+                    "set depth = \"tip\", model the floor as the cone of the tool's point, or take a flatter tool";
+                return Err(JobError::document("flat-floor", format!("{path}.depth"), message, hint));
+            }
+        }
+        Ok(())
+    }
+
+    fn passes(&self, given: &PassContext<'_>) -> Passes {
+        let shape = DrillShape::of(given.body);
+        let drilled = |hole: &Hole| DrilledHole {
+            name: hole.name(),
+            at: hole.at,
+            radius: hole.radius,
+            top: hole.top,
+            bottom: self.bottom(hole, shape),
+        };
+        Passes::Drilling(Drilling {
+            holes: self.holes(given).iter().map(drilled).collect(),
+            peck: self.cycle.peck().unwrap_or(f64::INFINITY),
+            dwell: self.cycle.dwell(),
+            is_tapping: self.cycle.pitch().is_some(),
+        })
+    }
+
+    fn spacing(&self) -> Option<PassSpacing> {
+        None // holes lie where the part has them
+    }
+
+    fn effort(&self, _areas: &Areas) -> Option<Effort> {
+        None // a few moves for each hole
+    }
+}
+
+impl Drill {
+    /// The moves of holes in their order, with their cycles.
+    fn drilled(&self, context: &Context<'_>, holes: &[Hole], shape: DrillShape) -> Result<Planned, JobError> {
+        let common = context.common;
+        let spindle = match common.spindle {
+            Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
+            Spindle::Off | Spindle::Free | Spindle::Rolling => None,
+        };
+        let kind = self.cycle.kind(spindle.map_or(SpindleDirection::Clockwise, |(_, direction)| direction));
+        let (mut moves, mut events, mut cycles) = (Vec::new(), Vec::new(), Vec::new());
+        let clearance = context.scene.clearance;
+        let mut depth = 0.0;
+        for hole in holes {
+            let [x, y] = hole.at;
+            let begins = hole.top.max(context.heights.top.unwrap_or(hole.top));
+            let cycle = Cycle {
+                first: moves.len(),
+                count: 0,
+                kind,
+                at: hole.at,
+                retract: (begins + self.retract_height).min(clearance),
+                bottom: self.bottom(hole, shape),
+                leave: clearance,
+                feed: self.plunge_feed(common, spindle.map(|(rpm, _)| rpm)),
+                dwell: self.cycle.dwell(),
+                peck: self.cycle.peck().unwrap_or(0.0),
+            };
+            if kind.is_tapping() && !context.machine.takes_cycle(&cycle) {
+                let message = format!("{} has no cycle that taps ({kind:?})", context.machine.name);
+                let hint = "take a machine that taps, or drill the holes and cut the threads by hand";
+                return Err(JobError::document("no-tapping", format!("{}.cycle", context.path), message, hint));
+            }
+            let from = moves.last().map_or([x, y, clearance], |last: &Move| last.end.tip);
+            if moves.is_empty() {
+                moves.push(Move::rapid(from).of_operation(context.operation));
+            }
+            let cycle = Cycle { first: moves.len(), ..cycle };
+            let steps = cycle.steps(&CycleStart { position: from, spindle }).ok_or_else(|| {
+                let message = format!("the hole {} takes more than {MOST_PECKS} pecks", hole.name());
+                JobError::document("out-of-range", format!("{}.cycle.peck", context.path), message, "raise peck")
+            })?;
+            for step in steps {
+                match step {
+                    CycleStep::Move(MoveKind::Rapid, tip) => {
+                        moves.push(Move::rapid(tip).of_operation(context.operation))
+                    }
+                    CycleStep::Move(MoveKind::Feed, tip) => {
+                        moves.push(Move::feed(tip, cycle.feed).of_operation(context.operation));
+                    }
+                    CycleStep::Event(kind) => events.push((moves.len() - 1, kind)),
+                }
+            }
+            depth += begins - cycle.bottom;
+            cycles.push(Cycle { count: moves.len() - cycle.first, ..cycle });
+        }
+        let facts = vec![
+            Fact::count(holes.len(), "hole", "holes"),
+            Fact::length("drilled", depth, "drilled, all holes together"),
+        ];
+        let events: Vec<(usize, EventKind)> = events;
+        Ok(Planned { moves, events, cycles, words: String::new(), note: String::new(), facts, surface: None })
+    }
+}
+
+/// The holes in an order with short ways across, and their length, mm.
+fn in_order(context: &Context<'_>, holes: Vec<Hole>) -> Result<(Vec<Hole>, f64), JobError> {
+    let pass = |(number, hole): (usize, &Hole)| {
+        let tip = Vector::new(hole.at[0], hole.at[1], context.scene.clearance);
+        let point = PathPoint { tip, normal: Vector::z(), selected: true, triangle: number as u32 };
+        Pass { points: vec![point], closed: false, group: 0 }
+    };
+    let passes: Vec<Pass> = holes.iter().enumerate().map(pass).collect();
+    let air = Air { height: context.scene.clearance, along: 0.0 };
+    let sense = (Sense::Forward, Seam::Nearest);
+    let ordered = shortly_ordered(passes, sense, Freedom::WithinGroups, &air, context.watch)?;
+    let numbers = ordered.passes.iter().filter_map(|pass| pass.points.first());
+    let holes = numbers.filter_map(|point| holes.get(point.triangle as usize).cloned()).collect();
+    Ok((holes, ordered.between[1]))
+}
+
+fn breakthrough() -> f64 {
+    0.5
+}
+
+fn retract_height() -> f64 {
+    1.0
+}
+
+fn diameter_tolerance() -> f64 {
+    0.01
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHAPE: DrillShape = DrillShape { diameter: 5.0, point: 1.5 };
+
+    fn hole(floor: Option<f64>) -> Hole {
+        Hole { faces: vec![7], at: [0.0; 2], radius: 2.5, top: 12.0, bottom: 4.0, floor }
+    }
+
+    fn drill(depth: HoleDepth) -> Drill {
+        Drill { cycle: HoleCycle::default(), depth, breakthrough: 0.5, retract_height: 1.0, diameter_tolerance: 0.1 }
+    }
+
+    #[test]
+    fn the_point_goes_through_and_stops_at_floors() {
+        for depth in [HoleDepth::Tip, HoleDepth::FullDiameter] {
+            assert_eq!(drill(depth).bottom(&hole(None), SHAPE), 2.0);
+            assert_eq!(drill(depth).bottom(&hole(Some(2.5)), SHAPE), 2.5, "the cone of its own point");
+        }
+        assert_eq!(drill(HoleDepth::Tip).bottom(&hole(Some(4.0)), SHAPE), 4.0);
+        assert_eq!(drill(HoleDepth::FullDiameter).bottom(&hole(Some(4.0)), SHAPE), 2.5);
+        assert_eq!(
+            drill(HoleDepth::Tip).bottom(&hole(Some(1.0)), SHAPE),
+            2.5,
+            "its shoulder meets a steeper cone first"
+        );
+    }
+
+    #[test]
+    fn holes_fit_from_the_tools_diameter_to_the_tolerance_beyond_it() {
+        let fits = |diameter: f64| drill(HoleDepth::Tip).fits(&Hole { radius: 0.5 * diameter, ..hole(None) }, SHAPE);
+        assert!(fits(4.999) && fits(5.0) && fits(5.1));
+        assert!(!fits(4.99) && !fits(5.11));
+    }
+
+    #[test]
+    fn a_taps_feed_is_its_pitch_times_the_speed() {
+        let tap = Drill { cycle: HoleCycle::Tap { pitch: 0.8 }, ..drill(HoleDepth::Tip) };
+        let common = crate::from_toml(&crate::tests::setup::levels()).unwrap().operations.remove(0).common;
+        assert_eq!(tap.plunge_feed(&common, Some(500.0)), 400.0);
+        assert_eq!(drill(HoleDepth::Tip).plunge_feed(&common, Some(500.0)), common.feeds.plunge);
+    }
+}

@@ -1,0 +1,40 @@
+//! Faults of holes that are drilled.
+
+use super::FaultKind;
+use crate::findings::FindingKind;
+
+pub(crate) static MISSING_HOLE: FaultKind = FaultKind::on_part(
+    FindingKind::MissingHole,
+    |fault| match (fault.value(), fault.limit()) {
+        (depth, bottom) if depth.is_infinite() => {
+            format!("no feed goes down this hole of the operation, which ends at Z{bottom:.3}")
+        }
+        (depth, bottom) => format!("this hole is drilled down to Z{depth:.3}, and it ends at Z{bottom:.3}"),
+    },
+    "post the whole operation: a hole, or the end of one, is missing",
+);
+pub(crate) static NO_HOLE_HERE: FaultKind = FaultKind::on_part(
+    FindingKind::StrayHole,
+    |fault| {
+        format!("a feed of a drill goes to where the operation has no hole, {:.3} mm from the nearest", fault.value())
+    },
+    "correct X and Y, or post the operation again",
+);
+pub(crate) static TOO_DEEP: FaultKind = FaultKind::on_part(
+    FindingKind::StrayHole,
+    |fault| format!("the drill goes down to Z{:.3}, and its hole ends at Z{:.3}", fault.value(), fault.limit()),
+    "correct Z, or post the operation again",
+);
+pub(crate) static DEEP_PECK: FaultKind = FaultKind::on_part(
+    FindingKind::Peck,
+    |fault| format!("the drill goes {:.3} mm deep at once, and a peck is {:.3} mm", fault.value(), fault.limit()),
+    "post the operation again: a peck is missing",
+);
+pub(crate) static RAPID_IN_HOLE: FaultKind = FaultKind::in_text(
+    FindingKind::RapidPlunge,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("a rapid goes down to Z{value:.3}, and the hole is open down to Z{limit:.3} so far")
+    },
+    "come down at a feed from there",
+);
