@@ -3,12 +3,14 @@
 //! A new kind is one constant here and one variant of [`FindingKind`].
 
 mod stock;
+mod tabs;
 
 use styluscam_motion::Move;
 
 use crate::findings::{FindingKind, Severity};
 
 pub(crate) use stock::*;
+pub(crate) use tabs::*;
 
 /// A kind of fault, and how it is reported.
 #[derive(Debug)]

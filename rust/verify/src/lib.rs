@@ -79,6 +79,7 @@ mod simulation;
 mod stroke;
 mod subject;
 mod sweep;
+mod tabs;
 mod tally;
 mod tolerances;
 mod travel;
@@ -95,7 +96,7 @@ pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
 };
 pub use expectation::{
-    Clearing, Contact, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers, OrderedPasses, Passes,
+    Clearing, Contact, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers, OrderedPasses, Passes, TabShape,
 };
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};

@@ -5,7 +5,7 @@ use styluscam_geometry::ToolBody;
 use styluscam_motion::Move;
 use styluscam_verify::{Contact, Layers, Passes};
 
-use super::{Areas, Context, Effort, Fact, SurfaceFacts};
+use super::{Areas, Context, Effort, Fact, SurfaceFacts, Tabs};
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys, Scene};
 
@@ -49,6 +49,11 @@ pub trait OperationKind {
     /// Whether its path is for a part that the spindle turns.
     fn turns_part(&self) -> bool {
         false
+    }
+
+    /// The tabs that its passes leave.
+    fn tabs(&self) -> Option<Tabs> {
+        None
     }
 
     /// What its lateral feeds owe the part.

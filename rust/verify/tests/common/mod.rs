@@ -90,8 +90,16 @@ pub fn tool(profile: ProfileDocument) -> Tool {
 /// What a job states for its one operation, of all triangles.
 pub fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes) -> [ExpectedOperation; 1] {
     let selected = vec![true; part.mesh.triangles().len()];
-    let expectation =
-        Expectation { contact, selected, region: Region::default(), heights, passes, forms: false, layers: None };
+    let expectation = Expectation {
+        contact,
+        selected,
+        region: Region::default(),
+        heights,
+        passes,
+        forms: false,
+        layers: None,
+        tabs: None,
+    };
     let id = "walls".to_owned();
     [ExpectedOperation {
         id,
