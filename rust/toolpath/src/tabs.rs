@@ -481,9 +481,10 @@ mod tests {
     fn what_does_not_fit_is_refused() {
         let rule = |count| TabRule { number: TabNumber::Count(count), ..RULE };
         assert!(matches!(tabs(&[square(1.0)], &rule(12)), Err(TabError::TooShort { count: 12, .. })));
-        // 80 mm of 160, but two of them meet round a corner
-        let slim = level_loop(&[[0.0, 0.0], [60.0, 0.0], [60.0, 1.0], [0.0, 1.0]], 0.0, 0.0);
-        assert!(matches!(tabs(&[slim], &rule(8)), Err(TabError::TooShort { .. })));
+        // 36 mm of 48, but round its corners the tool is nowhere 9 mm off both
+        let window = level_loop(&[[0.0, 0.0], [14.0, 0.0], [14.0, 10.0], [0.0, 10.0]], 0.0, 0.0);
+        let high = TabRule { height: 4.0, ..rule(2) };
+        assert!(matches!(tabs(&[window], &high), Err(TabError::TooShort { count: 2, .. })));
         let leaning = level_loop(&[[0.0, 0.0], [60.0, 0.0], [60.0, 60.0]], 0.0, 0.1);
         assert!(matches!(tabs(&[leaning], &rule(1)), Err(TabError::Leaning { .. })));
         assert_eq!(tabs(&[], &RULE), Err(TabError::NoLoop));
