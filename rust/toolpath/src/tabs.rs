@@ -334,9 +334,7 @@ impl Lift<'_> {
         let chords = part.chords(CHORDS);
         for number in 1..=chords {
             let share = number as f64 / chords as f64;
-            let [x, y, _] = part.at(share);
-            let z = ends[0][2] + share * (ends[1][2] - ends[0][2]);
-            let end = if number == chords { ends[1] } else { [x, y, z] };
+            let end = if number == chords { ends[1] } else { self.raised(part.at(share)) };
             self.push(step.arc(None).to(end), lifted);
         }
     }

@@ -20,6 +20,12 @@ const NEAR: f64 = 5e-3;
 const WIDER: f64 = 0.05;
 /// A loop is round the same wall as another where it comes as near to it in plan as this share of the tool's radius.
 const SAME_WALL: f64 = 0.5;
+/// Stretches are lifted over the same tab where their middles are as near as this share of the distance that the tool keeps from it: a
+/// ramp may come down on it behind its edge.
+const SAME_TAB: f64 = 0.5;
+/// The share of a move that shows its heading at an end, and the cosine from which on two headings are opposite.
+const TANGENT: f64 = 1e-3;
+const BACK: f64 = -0.9;
 /// Length of the pieces in which a move is compared with a tab, mm.
 const PIECE: f64 = 0.1;
 
@@ -41,7 +47,9 @@ pub(crate) struct Tabs<'a> {
     shape: &'a TabShape,
     radius: f64,
     /// As they are found, level by level.
-    pub found: Vec<Tab>,
+    found: Vec<Tab>,
+    /// Of those over one another the widest.
+    apart: Vec<Tab>,
 }
 
 impl<'a> Tabs<'a> {
@@ -56,8 +64,16 @@ impl<'a> Tabs<'a> {
         let shape = operation.expectation.tabs.as_ref()?;
         let radius = 0.5 * subject.tools.get(operation.tool)?.diameter();
         let own = own(program, segments, assignment, operation);
-        let found = chains(&own).flat_map(|chain| tabs_of(&own, chain)).collect();
-        Some(Self { shape, radius, found })
+        let found: Vec<Tab> = chains(&own).flat_map(|chain| tabs_of(&own, chain)).collect();
+        let mut tabs = Self { shape, radius, apart: Vec::new(), found };
+        let mut widest = tabs.found.clone();
+        widest.sort_by(|a, b| b.span.total_cmp(&a.span));
+        for tab in widest {
+            if tabs.apart.iter().all(|other| apart(other.centre, tab.centre) > SAME_TAB * tabs.reach()) {
+                tabs.apart.push(tab);
+            }
+        }
+        Some(tabs)
     }
 
     /// How far from the middle of a tab the tool keeps below its top, mm.
@@ -92,10 +108,10 @@ fn own<'a>(
     segments.iter().filter(of_pass).collect()
 }
 
-/// Moves that follow each other without a stop, as ranges.
+/// Moves that follow each other without a stop and without turning back, as ranges.
 fn chains<'a>(own: &'a [&Segment]) -> impl Iterator<Item = std::ops::Range<usize>> + 'a {
     let mut from = 0;
-    own.chunk_by(|a, b| b.start == Some(a.end)).map(move |chain| {
+    own.chunk_by(|a, b| b.start == Some(a.end) && !turns_back(a, b)).map(move |chain| {
         let range = from..from + chain.len();
         from = range.end;
         range
@@ -140,21 +156,16 @@ fn joined(before: &[&Segment], after: &[&Segment]) -> bool {
     plan(end.end, start) <= CLOSED && (end.end[2] - start[2]).abs() <= SAME_LEVEL
 }
 
-/// The tab over which a level run goes.
+/// The tab over which a level run goes: both its ends are equally far from the middle, which lies on the run.
 fn tab<'a>(run: impl Iterator<Item = &'a Segment> + Clone, last: usize) -> Option<Tab> {
-    let length: f64 = run.clone().map(Segment::length).sum();
-    let span = run.clone().last()?.end;
-    let span = plan(run.clone().next()?.start?, span);
-    let mut rest = 0.5 * length;
-    for segment in run {
-        let step = segment.length();
-        if rest <= step && step > 0.0 {
-            let [x, y, top] = segment.at(rest / step);
-            return Some(Tab { centre: [x, y], top, span, last });
-        }
-        rest -= step;
-    }
-    None
+    let ends = [run.clone().next()?.start?, run.clone().last()?.end];
+    let farther = |point: [f64; 3]| plan(point, ends[0]) - plan(point, ends[1]);
+    let points: Vec<[f64; 3]> = run.flat_map(points).collect();
+    let middle = points.windows(2).find(|pair| farther(pair[0]) <= 0.0 && farther(pair[1]) > 0.0)?;
+    let [before, after] = [farther(middle[0]), farther(middle[1])];
+    let share = before / (before - after);
+    let [x, y, top] = [0, 1, 2].map(|axis| middle[0][axis] + share * (middle[1][axis] - middle[0][axis]));
+    Some(Tab { centre: [x, y], top, span: plan(ends[0], ends[1]), last })
 }
 
 /// What is wrong with the tabs of operations that are to leave them.
@@ -228,8 +239,11 @@ impl Tabs<'_> {
         let is_held = |one: &&Loop| one.low < one.foot + self.shape.height - HEIGHT;
         let wrong = loops.iter().filter(is_held).filter_map(|one| {
             let moves = own.get(one.moves.clone())?;
-            let is_over = |tab: &&Tab| one.moves.contains(&tab.last);
-            let count = self.found.iter().filter(is_over).count();
+            let is_over = |tab: &&Tab| {
+                let near = |segment: &&Segment| comes_near(segment, tab.centre, SAME_WALL * self.radius);
+                tab.top > one.low + HEIGHT && moves.iter().copied().any(|segment| near(&segment))
+            };
+            let count = self.apart.iter().filter(is_over).count();
             let expected = match (self.shape.count, self.shape.spacing) {
                 (None, Some(most)) => ((one.length - WIDER) / most).ceil().max(1.0) as usize,
                 (count, _) => count.unwrap_or_default(),
@@ -271,7 +285,7 @@ impl Tabs<'_> {
             let radius = 0.5 * subject.tools.get(segment.tool?)?.diameter();
             let near = 0.5 * self.shape.width + radius - NEAR;
             let cut = |tab: &Tab| fed && segment.lowest() < tab.top - HEIGHT && is_below(segment, tab, near);
-            let tab = self.found.iter().find(|tab| cut(tab))?;
+            let tab = self.apart.iter().find(|tab| cut(tab))?;
             Some(segment.fault(&faults::TAB_CUT).measured(segment.lowest(), tab.top))
         };
         segments.iter().filter_map(cuts).collect()
@@ -292,6 +306,17 @@ fn comes_near(segment: &Segment, point: [f64; 2], distance: f64) -> bool {
 fn points(segment: &Segment) -> impl Iterator<Item = [f64; 3]> + '_ {
     let count = (segment.length() / PIECE).ceil().clamp(1.0, 1e6) as u32;
     (0..=count).map(move |number| segment.at(f64::from(number) / f64::from(count)))
+}
+
+/// Whether the second of two moves goes back along the first.
+fn turns_back(a: &Segment, b: &Segment) -> bool {
+    let heading = |segment: &Segment, from: f64, to: f64| {
+        let [from, to] = [from, to].map(|share| segment.at(share));
+        let length = plan(from, to).max(f64::MIN_POSITIVE);
+        [0, 1].map(|axis| (to[axis] - from[axis]) / length)
+    };
+    let [before, after] = [heading(a, 1.0 - TANGENT, 1.0), heading(b, 0.0, TANGENT)];
+    before[0] * after[0] + before[1] * after[1] < BACK
 }
 
 fn is_level(segment: &Segment) -> bool {

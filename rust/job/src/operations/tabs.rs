@@ -7,7 +7,11 @@ use styluscam_toolpath::{lifted, tabs, Pass, Tab, TabError, TabNumber, TabRule};
 use styluscam_verify::TabShape;
 
 use super::{Context, Fact};
+use crate::numbers::shown;
 use crate::JobError;
+
+/// A tool is as wide as it gets where its radius is less by no more, mm.
+const SAME_RADIUS: f64 = 1e-6;
 
 /// Tabs that hold the part: the tool is lifted over them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -82,6 +86,17 @@ impl Tabs {
             };
             JobError::document("tabs", at, error.to_string(), hint)
         })?;
+        let highest = found.iter().map(|tab| tab.top).fold(f64::NEG_INFINITY, f64::max);
+        let wall = context.scene.top - highest;
+        if wall <= 0.0 || context.tool.cutter().at_height(wall).0 < radius - SAME_RADIUS {
+            let message = format!("the tool, lifted over tabs to Z{}, is above the wall", shown(highest));
+            return Err(JobError::document(
+                "tabs",
+                format!("{}.tabs.height", context.path),
+                message,
+                "lower tabs.height",
+            ));
+        }
         Ok(Planned { tabs: found, rule })
     }
 }
