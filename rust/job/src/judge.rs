@@ -448,6 +448,7 @@ fn expectation(
         },
         forms: job.process.process.as_kind().forms() && scene.opposite.is_none(),
         layers: layers_of(job, scene, tool, section),
+        tabs: section.kind().tabs().map(|tabs| tabs.expected()),
     })
 }
 

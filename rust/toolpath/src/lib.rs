@@ -23,6 +23,7 @@ mod seam;
 mod segment;
 mod standing;
 mod surface;
+mod tabs;
 
 pub use arcs::{Arcs, Fitted};
 pub use corners::slowed;
@@ -41,3 +42,4 @@ pub use seam::Seam;
 pub use segment::{Curve, Pace, Segment};
 pub use standing::{Low, Standing};
 pub use surface::Surface;
+pub use tabs::{lifted, tabs, Tab, TabError, TabNumber, TabRule};

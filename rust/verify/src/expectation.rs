@@ -59,6 +59,23 @@ pub struct Expectation {
     pub forms: bool,
     /// Layers in which it forms it; none where its passes are in none.
     pub layers: Option<Layers>,
+    /// The tabs that its passes leave; none where they leave none.
+    pub tabs: Option<TabShape>,
+}
+
+/// Tabs that passes leave on each wall that they go round, so that what they cut out is held; mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TabShape {
+    /// How many there are on each loop; instead of `spacing`.
+    pub count: Option<usize>,
+    /// How far apart they are at most along the loop; instead of `count`.
+    pub spacing: Option<f64>,
+    /// What stays of each at least, along the loop.
+    pub width: f64,
+    /// How high above the lowest loop of its wall.
+    pub height: f64,
+    /// Rise over run of the tool's path beside them.
+    pub slope: f64,
 }
 
 /// What lateral feeds owe the part.

@@ -4,6 +4,7 @@
 
 mod drilled;
 mod stock;
+mod tabs;
 
 use styluscam_motion::Move;
 
@@ -11,6 +12,7 @@ use crate::findings::{FindingKind, Severity};
 
 pub(crate) use drilled::*;
 pub(crate) use stock::*;
+pub(crate) use tabs::*;
 
 /// A kind of fault, and how it is reported.
 #[derive(Debug)]

@@ -51,6 +51,8 @@ pub enum FindingKind {
     UnselectedContact,
     /// A position that the tool could touch is left, and the distance between passes does not explain it.
     MissingPass,
+    /// Tabs that are to hold the part are missing, cut, or not as they should be.
+    Tabs,
     /// Levels are farther apart than expected, or end too soon.
     MissingLevel,
     /// Rows are farther apart than expected, or end too soon.
@@ -205,6 +207,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::OutsideBoundary, "contact outside the boundary"),
         (Kind::UnselectedContact, "contact on faces that are not selected"),
         (Kind::MissingPass, "missing pass"),
+        (Kind::Tabs, "tabs not as stated"),
         (Kind::MissingLevel, "missing level"),
         (Kind::MissingRow, "missing row"),
         (Kind::MissingHole, "missing hole"),

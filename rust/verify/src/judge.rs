@@ -13,7 +13,7 @@ use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::{
     clearing, corner_angles, corners, diagnosis, frame, holes, leaning, low_links, pair, passes, reach, sequence,
-    settings, travel, unreached, walls,
+    settings, tabs, travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.
@@ -37,7 +37,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     if let Some(frame) = &frame {
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
     }
-    faults.extend(passes::faults(&segments, &assignment, subject, limits, watch)?);
+    faults.extend(passes::faults(program, &segments, &assignment, subject, limits, watch)?);
     faults.extend(holes::faults(&segments, subject, limits));
     let cleared = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
     faults.extend(cleared.faults);
@@ -111,6 +111,7 @@ fn of_text(
     faults.extend(corner_angles::faults(program, segments, assignment, limits));
     faults.extend(sequence::faults(program, segments, assignment, subject, limits));
     faults.extend(sequence::punches(program, segments, assignment, subject, limits, frame));
+    faults.extend(tabs::faults(program, segments, assignment, subject));
     Ok(faults)
 }
 

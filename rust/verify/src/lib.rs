@@ -81,6 +81,7 @@ mod solid;
 mod stroke;
 mod subject;
 mod sweep;
+mod tabs;
 mod tally;
 mod tolerances;
 mod travel;
@@ -98,7 +99,7 @@ pub use engagement::{
 };
 pub use expectation::{
     Clearing, Contact, DrilledHole, Drilling, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers,
-    OrderedPasses, Passes,
+    OrderedPasses, Passes, TabShape,
 };
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};

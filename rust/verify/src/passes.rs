@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
-use styluscam_motion::{Cancelled, Watch};
+use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
 use crate::body::Body;
@@ -22,6 +22,7 @@ use crate::scalar::{PassKind, Scalar};
 use crate::scallop::Ridges;
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
+use crate::tabs::Tabs;
 use crate::tolerances::{ROOM, ROUGH, WIDE};
 
 // Lengths below do not follow the tolerance and the mesh's deviation: these two are added where they matter (see
@@ -90,6 +91,7 @@ const OF_LAYER: f64 = 0.5;
 
 /// Faults in the order of the moves that lie beside the missing passes.
 pub(crate) fn faults(
+    program: &Program,
     segments: &[Segment],
     assignment: &Assignment,
     subject: &Subject,
@@ -123,9 +125,12 @@ pub(crate) fn faults(
         let left = look.left(&sweeps, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
         let at_ends = look.left_at_ends(&sweeps, watch)?;
+        let tabs = Tabs::of(program, segments, assignment, subject, operation);
         let ridges = Ridges { subject, operation, passes, body, sweeps: &sweeps, contacts: &contacts };
         let scallops = ridges.faults(watch)?;
-        for fault in left.into_iter().chain(on_passes).chain(at_ends).chain(look.gaps()).chain(scallops) {
+        let found =
+            left.into_iter().chain(on_passes).chain(at_ends).filter(|fault| !Tabs::excuse(&tabs, fault.position));
+        for fault in found.chain(look.gaps()).chain(scallops) {
             let known = worst.entry((fault.index, fault.kind.finding)).or_insert(fault);
             if fault.weight > known.weight {
                 *known = fault;

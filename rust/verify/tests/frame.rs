@@ -78,6 +78,7 @@ fn judged(program: &Program, stated: &[FrameLevel], obstacles: &[Obstacle]) -> R
         passes: Passes::Ordered(passes),
         forms: true,
         layers: None,
+        tabs: None,
     };
     let id = "walls".to_owned();
     let expected = [ExpectedOperation {

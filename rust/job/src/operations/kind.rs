@@ -5,7 +5,7 @@ use styluscam_geometry::ToolBody;
 use styluscam_motion::{Cycle, EventKind, Move};
 use styluscam_verify::{Contact, Layers, Passes};
 
-use super::{Areas, Context, Effort, Fact, SurfaceFacts};
+use super::{Areas, Context, Effort, Fact, SurfaceFacts, Tabs};
 use crate::cutting::{CuttingWork, Engagement};
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys, Scene};
@@ -76,6 +76,11 @@ pub trait OperationKind {
     /// Whether its path is for a part that the spindle turns.
     fn turns_part(&self) -> bool {
         false
+    }
+
+    /// The tabs that its passes leave.
+    fn tabs(&self) -> Option<Tabs> {
+        None
     }
 
     /// What its lateral feeds owe the part.

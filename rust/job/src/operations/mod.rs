@@ -29,6 +29,7 @@ mod rails;
 mod reached;
 mod step;
 mod surface;
+mod tabs;
 #[cfg(test)]
 mod tests;
 
@@ -39,6 +40,7 @@ pub(crate) use facts::counted;
 pub use facts::{BridgedFace, End, Fact, ReachedFace, SurfaceFacts};
 pub use keys::{Coolant, Direction, Edges, Feeds, Fit, LeadForm, LinkHeight, OperationKeys, Spindle};
 pub use kind::{About, Machining, OperationKind, PassContext, PassSpacing, Planned, Serves, StarterPasses};
+pub use tabs::Tabs;
 
 kinds! {
     /// The kinds of operations, each with its own keys.

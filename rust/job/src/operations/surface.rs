@@ -307,6 +307,7 @@ fn linked(
     let context = task.context;
     let deviation = task.budget.deviation;
     let along = task.along(surface, kind.planes(context), kind.pitch(task.body));
+    let tabs = kind.tabs().map(|tabs| tabs.planned(context, &traced.passes)).transpose()?;
     let (mut entered, mut turns, mut between) = (Vec::with_capacity(traced.passes.len()), None, [0.0; 2]);
     for (number, (floor, passes)) in traced.take_by_layer().into_iter().enumerate() {
         let layer = (number, passes);
@@ -318,6 +319,11 @@ fn linked(
     let mut facts = turns.map_or_else(Vec::new, turn_facts);
     let (moves, linked) = links::linked(context, (entered, kind.seam(), deviation), along, &task.links())?;
     facts.extend(order_fact(between).into_iter().chain(linked));
+    facts.extend(tabs.as_ref().map(|tabs| tabs.fact()));
+    let moves = match &tabs {
+        Some(tabs) => tabs.lifted(context, &moves),
+        None => moves,
+    };
     if !context.common.slow_corners {
         return Ok((moves, facts));
     }

@@ -12,7 +12,7 @@ use super::facts::counted;
 use super::levels::{self, LevelKeys};
 use super::step::{Step, StepLimits};
 use super::surface::{self, FollowsSurface, Task, Traced};
-use super::{About, Areas, Context, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned, Serves};
+use super::{About, Areas, Context, Effort, Fact, OperationKind, PassContext, PassSpacing, Planned, Serves, Tabs};
 use crate::{JobError, OperationKeys};
 
 /// Loops at constant heights, from the top down.
@@ -50,6 +50,10 @@ pub struct ZLevel {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "deg", "minimum" = 0.1, "maximum" = 45.0))]
     pub ramp_angle_deg: Option<f64>,
+    /// Tabs that hold the part while loops cut it out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-example" = "{ count = 4, width = 5.0, height = 1.5 }"))]
+    pub tabs: Option<Tabs>,
 }
 
 /// Which loops come first.
@@ -78,7 +82,8 @@ impl ZLevel {
 
 impl OperationKind for ZLevel {
     fn check(&self, _common: &OperationKeys, path: &str) -> Result<(), JobError> {
-        self.limits().check(&self.step, path) // ramps lead from any seam
+        self.limits().check(&self.step, path)?; // ramps lead from any seam
+        self.tabs.map_or(Ok(()), |tabs| tabs.check(path))
     }
 
     fn cuts_upright_walls(&self) -> bool {
@@ -91,6 +96,10 @@ impl OperationKind for ZLevel {
 
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
         surface::plan(self, context)
+    }
+
+    fn tabs(&self) -> Option<Tabs> {
+        self.tabs
     }
 
     fn contact(&self) -> Contact {

@@ -100,6 +100,7 @@ pub fn expected(part: &Part, contact: Contact, heights: [f64; 2], passes: Passes
         passes,
         forms: false,
         layers: None,
+        tabs: None,
     };
     let id = "walls".to_owned();
     [ExpectedOperation {

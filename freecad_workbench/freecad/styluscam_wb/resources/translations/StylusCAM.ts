@@ -388,6 +388,12 @@ Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Tabs that hold the part while loops cut it out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Tensile strength of its material, MPa: for an estimate of the axial force; none is made when left out.
 Range: 1 to 3000 MPa
 0 or empty: not stated</source>
@@ -2056,6 +2062,16 @@ Range: 0 to 100 mm</source>
     </message>
     <message>
         <source>Support tool</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tabs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tabs that hold the part while loops cut it out.
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
