@@ -48,6 +48,40 @@ impl ToolBody {
         let wall = Wall { body: self, slope, foot: [radius, z], normal: libm::sincos(slope), height };
         wall.end(FRAC_PI_2) - wall.end(-FRAC_PI_2)
     }
+
+    /// Width of the tool, seen up along a face of a `slope`, at `height` mm above the face, mm: what passes straight up the wall
+    /// cut at that height.
+    #[must_use]
+    pub fn level_chord(&self, slope: f64, height: f64) -> f64 {
+        let (sin, cos) = libm::sincos(slope);
+        // half the width and the height over the face, where the face, turned aside by an angle, would touch
+        let seen = |angle: f64| {
+            let (aside, ahead) = libm::sincos(angle);
+            let lean = libm::hypot(ahead * sin, aside);
+            let (radius, z) = self.point_at(libm::atan2(lean, ahead * cos));
+            if lean > FLOOR {
+                [radius * aside / lean, z * cos - radius * ahead * sin * sin / lean]
+            } else {
+                [radius, z]
+            }
+        };
+        let foot = seen(0.0)[1];
+        let (mut near, mut far) = (0.0, FRAC_PI_2);
+        if seen(far)[1] - foot < height {
+            return 2.0 * self.max_radius();
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (near + far);
+            if seen(middle)[1] - foot < height {
+                near = middle;
+            } else {
+                far = middle;
+            }
+        }
+        let ([s0, d0], [s1, d1]) = (seen(near), seen(far));
+        let share = if d1 > d0 { ((height + foot - d0) / (d1 - d0)).clamp(0.0, 1.0) } else { 0.0 };
+        2.0 * (s0 + share * (s1 - s0))
+    }
 }
 
 /// The tool's section as it stands on a wall.

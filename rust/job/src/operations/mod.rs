@@ -47,6 +47,7 @@ kinds! {
         meridian::Meridian = "meridian",
         pocket::Pocket = "pocket",
         flank::Flank = "flank",
+        constant_scallop::ConstantScallop = "constant-scallop",
     }
 }
 
