@@ -130,13 +130,11 @@ impl Net {
 fn over_side([side, first]: [f64; 2], third: f64, [near, far]: [f64; 2]) -> f64 {
     let at_ends = (near + first).min(far + third);
     let rise = (far - near) / side;
-    if rise.is_nan() || rise.abs() >= 1.0 {
-        return at_ends;
-    }
     // the corner over the side laid flat
     let along = (first * first + side * side - third * third) / (2.0 * side);
-    let over = (first * first - along * along).max(0.0).sqrt();
+    let over = (first * first - along * along).sqrt();
     let steep = (1.0 - rise * rise).sqrt();
+    // not a number where the front comes from beyond an end, or where three lengths make no triangle
     let from = along - rise * over / steep;
     if (0.0..=side).contains(&from) {
         at_ends.min(near + rise * along + steep * over)
