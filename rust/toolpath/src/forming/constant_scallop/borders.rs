@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::field::Net;
+use super::distances::reached;
+use super::net::Net;
 use super::stations::Station;
 use crate::Surface;
 
@@ -35,8 +36,10 @@ pub fn beside(net: &Net, surface: &Surface<'_>, at: f64) -> Vec<(usize, f64)> {
         for node in corners {
             let Some(station) = net.stations[node] else { continue };
             for (number, first) in crossings.iter().enumerate() {
-                let others =
-                    crossings.iter().skip(number).map(|second| net.reached(&station, [(first, at), (second, at)]));
+                let others = crossings
+                    .iter()
+                    .skip(number)
+                    .map(|second| reached(&net.spacing, &station, [(first, at), (second, at)]));
                 sources.push((node, others.fold(f64::INFINITY, f64::min)));
             }
         }
@@ -46,8 +49,7 @@ pub fn beside(net: &Net, surface: &Surface<'_>, at: f64) -> Vec<(usize, f64)> {
 
 /// The last selected position on the way from a node with a station to one without.
 fn last_before(net: &Net, surface: &Surface<'_>, inside: usize, outside: usize) -> Option<Station> {
-    let width = net.lattice.columns + 1;
-    let [from, to] = [inside, outside].map(|node| net.lattice.point([node % width, node / width].map(|i| i as f64)));
+    let [from, to] = [inside, outside].map(|node| net.position(node));
     let mut last = net.stations[inside]?;
     let (mut low, mut high) = (0.0, 1.0);
     let mut hint = None;

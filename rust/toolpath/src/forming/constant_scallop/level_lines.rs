@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::field::Net;
+use super::net::Net;
 
 /// Two nodes, in the order of their numbers.
 type Side = [usize; 2];
@@ -46,8 +46,7 @@ fn walk(next: &mut BTreeMap<Side, Side>, begin: Side, point: impl Fn(Side) -> [f
 }
 
 fn crossing_of(net: &Net, values: &[f64], level: f64, side: Side) -> [f64; 2] {
-    let width = net.lattice.columns + 1;
-    let [a, b] = side.map(|node| net.lattice.point([node % width, node / width].map(|i| i as f64)));
+    let [a, b] = side.map(|node| net.position(node));
     let [low, high] = side.map(|node| values[node]);
     let share = ((level - low) / (high - low)).clamp(0.0, 1.0);
     [0, 1].map(|i| a[i] + share * (b[i] - a[i]))

@@ -4,23 +4,31 @@
 //! scallop are one apart. They are found over a lattice in plan, and followed exactly. See docs/concepts/scallops.md.
 
 mod borders;
-mod field;
+mod chains;
+mod creases;
+mod distances;
 mod level_lines;
+mod net;
+mod ridges;
 mod stations;
+mod thinning;
 
 use rayon::prelude::*;
 use styluscam_geometry::ToolBody;
 use styluscam_motion::{Cancelled, Watch};
 
-use self::field::Net;
+use self::creases::Creases;
+use self::net::Net;
 use self::stations::{Spacing, Station};
 use super::{over_line, Grid};
-use crate::{Pass, PlanError, Surface};
+use crate::{Pass, PathPoint, PlanError, Surface};
 
-/// Nodes between two passes at least.
-const NODES: f64 = 5.0;
-/// Slopes up to which nodes lie so near, rad: 75 degrees. Steeper walls have fewer.
-const STEEPEST: f64 = 1.309;
+/// Nodes from pass to pass: first, and then where they lie closest but for creases.
+const NODES: [f64; 2] = [2.0, 5.0];
+/// Share of a lattice's sides that are no longer than that.
+const MOST: f64 = 0.99;
+/// How much finer the second lattice is at most.
+const FINEST: f64 = 0.1;
 /// Passes at most.
 const LIMIT: usize = 100_000;
 /// From the border to the first pass, in passes: a little less than half of what lies between two.
@@ -50,31 +58,47 @@ pub fn constant_scallop(
     deviation: f64,
     watch: &Watch,
 ) -> Result<Vec<Pass>, PlanError> {
-    let nothing = || PlanError::NothingReached(String::new());
-    let spacing = Spacing::new(body, contours.scallop);
-    let mesh = surface.envelope().mesh();
-    let steepest = surface.triangles().map(|triangle| libm::acos(mesh.normal(triangle).z.clamp(-1.0, 1.0)));
-    let steepest = steepest.fold(0.0, f64::max).min(STEEPEST);
-    let cell = (spacing.smallest(steepest) / NODES).min(contours.spacing);
-    let grid = Grid::sample(surface, cell, watch)?.ok_or_else(nothing)?;
-    let net = Net::new(grid.lattice().clone(), stations(surface, &grid), spacing);
+    let net = net(surface, body, contours, watch)?.ok_or_else(|| PlanError::NothingReached(String::new()))?;
     watch.begin("distances", net.stations.len());
     let values = net.distances(&borders::beside(&net, surface, 1.0 - FIRST), watch)?;
-    let by_level = cells_by_level(&net, &values)?;
-    watch.begin("contours", by_level.len());
-    let of_level = |(number, cells): (usize, &Vec<usize>)| {
-        let mut passes = Vec::new();
-        for line in level_lines::level_lines(&net, &values, (number + 1) as f64, cells) {
-            for points in over_line(surface, line, contours.narrow, deviation, watch)? {
-                let closed = points.len() > 2 && points.first().map(|p| p.tip) == points.last().map(|p| p.tip);
-                passes.push(Pass { points, closed, group: number });
-            }
-        }
+    let by_level = cells_by_level(&net, &values, contours.scallop)?;
+    let creases = Creases::of(&net);
+    let lines = (0..by_level.len()).into_par_iter().flat_map_iter(|number| {
+        let lines = level_lines::level_lines(&net, &values, (number + 1) as f64, &by_level[number]);
+        lines.into_iter().map(move |line| (number, line))
+    });
+    let mut lines: Vec<(usize, Vec<[f64; 2]>)> = lines.collect();
+    let more = creases.lines().into_iter().chain(ridges::lines(&net, &values, &creases, watch)?);
+    lines.extend(more.map(|line| (by_level.len(), line)));
+    watch.begin("contours", lines.len());
+    let along = |(group, line): &(usize, Vec<[f64; 2]>)| {
+        let runs = over_line(surface, line.iter().copied(), contours.narrow, deviation, watch)?;
         watch.advance(1)?;
-        Ok(passes)
+        let is_closed =
+            |points: &[PathPoint]| points.len() > 2 && points.first().map(|p| p.tip) == points.last().map(|p| p.tip);
+        Ok(runs.into_iter().map(|points| Pass { closed: is_closed(&points), points, group: *group }).collect())
     };
-    let passes: Result<Vec<Vec<Pass>>, Cancelled> = by_level.par_iter().enumerate().map(of_level).collect();
+    let passes: Result<Vec<Vec<Pass>>, Cancelled> = lines.par_iter().map(along).collect();
     Ok(passes?.into_iter().flatten().collect())
+}
+
+/// The positions over a lattice that is fine enough for the contours.
+fn net(surface: &Surface<'_>, body: &ToolBody, contours: &Contours, watch: &Watch) -> Result<Option<Net>, Cancelled> {
+    let spacing = Spacing::new(body, contours.scallop);
+    let cell = (spacing.on_floor() / NODES[0]).min(contours.spacing);
+    let Some(coarse) = over(surface, spacing.clone(), cell, watch)? else { return Ok(None) };
+    let mut lengths: Vec<f64> = coarse.lengths().collect();
+    lengths.sort_unstable_by(f64::total_cmp);
+    let longest = lengths.get((MOST * lengths.len() as f64) as usize).copied().unwrap_or(0.0);
+    let share = (longest * NODES[1]).recip().clamp(FINEST, 1.0);
+    over(surface, spacing, share * cell, watch)
+}
+
+/// The positions over a lattice of cells of a size, mm.
+fn over(surface: &Surface<'_>, spacing: Spacing, cell: f64, watch: &Watch) -> Result<Option<Net>, Cancelled> {
+    let Some(grid) = Grid::sample(surface, cell, watch)? else { return Ok(None) };
+    watch.begin("sides", grid.contacts().len());
+    Net::new(surface, grid.lattice().clone(), stations(surface, &grid), spacing, watch).map(Some)
 }
 
 /// The stations at the nodes of a grid.
@@ -89,10 +113,10 @@ fn stations(surface: &Surface<'_>, grid: &Grid) -> Vec<Option<Station>> {
 }
 
 /// For each pass, the cells over which it goes.
-fn cells_by_level(net: &Net, values: &[f64]) -> Result<Vec<Vec<usize>>, PlanError> {
+fn cells_by_level(net: &Net, values: &[f64], scallop: f64) -> Result<Vec<Vec<usize>>, PlanError> {
     let last = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
     if last > LIMIT as f64 {
-        return Err(PlanError::TooMany { what: "scallop", value: 0.0, count: last as usize, limit: LIMIT });
+        return Err(PlanError::TooMany { what: "scallop", value: scallop, count: last as usize, limit: LIMIT });
     }
     let mut by_level = vec![Vec::new(); last as usize];
     for cell in net.lattice.cells().iter() {

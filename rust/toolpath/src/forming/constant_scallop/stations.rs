@@ -47,6 +47,7 @@ fn smooth_normal(surface: &Surface<'_>, triangle: usize, point: Vector, normal: 
 /// contact and S that of the surface on which its tip lies: so T - S over eight scallops is a metric in which passes lie one
 /// apart. T is that of the tool's chord at the scallop's height, and S follows from how the normal turns from one position to the
 /// other. Derived in docs/concepts/scallops.md.
+#[derive(Clone, Debug)]
 pub struct Spacing {
     /// By slope: the inverse square of the chord up the wall and level, 1/mm^2.
     chords: Vec<[f64; 2]>,
@@ -72,36 +73,36 @@ impl Spacing {
         Self { chords, per_turn: (8.0 * height).recip(), least: (most * most).recip() }
     }
 
-    /// The smallest distance of passes in plan on plane faces up to a slope, rad; mm.
-    pub fn smallest(&self, steepest: f64) -> f64 {
-        let last = (self.position(steepest).ceil() as usize).min(SLOPES);
-        let in_plan = |number: usize| {
-            let slope = std::f64::consts::FRAC_PI_2 * number as f64 / SLOPES as f64;
-            let [up, level] = self.chords[number].map(|inverse| inverse.sqrt().recip());
-            (up * libm::cos(slope)).min(level)
-        };
-        (0..=last).map(in_plan).fold(f64::INFINITY, f64::min)
+    /// The distance of passes on a level plane, mm.
+    pub fn on_floor(&self) -> f64 {
+        self.at_slope(0.0)[0].sqrt().recip()
     }
 
     /// How many passes lie between two positions near to each other.
     pub fn between(&self, a: &Station, b: &Station) -> f64 {
         let (shift, turn) = (b.tip - a.tip, b.normal - a.normal);
+        (self.tool(a, b) - turn.dot(&shift) * self.per_turn).max(self.least * shift.norm_squared()).sqrt()
+    }
+
+    /// The same across a crease, which has a pass of its own: both sides count as planes.
+    pub fn over_crease(&self, a: &Station, b: &Station) -> f64 {
+        self.tool(a, b).sqrt()
+    }
+
+    /// The square of the passes between two positions on a plane between them.
+    fn tool(&self, a: &Station, b: &Station) -> f64 {
+        let shift = b.tip - a.tip;
         let level = Vector::new(-a.normal.y - b.normal.y, a.normal.x + b.normal.x, 0.0);
         let rise = a.normal.z + b.normal.z;
         let lean = level.norm();
         let along = if lean > 0.0 { shift.dot(&level) / lean } else { 0.0 };
         let whole = shift.norm_squared();
         let [up_chord, level_chord] = self.at_slope(libm::atan2(lean, rise));
-        let tool = (whole - along * along).max(0.0) * up_chord + along * along * level_chord;
-        (tool - turn.dot(&shift) * self.per_turn).max(self.least * whole).sqrt()
-    }
-
-    fn position(&self, slope: f64) -> f64 {
-        slope / std::f64::consts::FRAC_PI_2 * SLOPES as f64
+        (whole - along * along).max(0.0) * up_chord + along * along * level_chord
     }
 
     fn at_slope(&self, slope: f64) -> [f64; 2] {
-        let position = self.position(slope).clamp(0.0, SLOPES as f64);
+        let position = (slope / std::f64::consts::FRAC_PI_2 * SLOPES as f64).clamp(0.0, SLOPES as f64);
         let first = (position as usize).min(SLOPES - 1);
         let share = position - first as f64;
         [0, 1].map(|i| self.chords[first][i] + share * (self.chords[first + 1][i] - self.chords[first][i]))

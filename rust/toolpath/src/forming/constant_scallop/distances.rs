@@ -12,67 +12,22 @@ use std::collections::BinaryHeap;
 
 use styluscam_motion::{Cancelled, Watch};
 
+use super::net::{Net, Triangle};
 use super::stations::{Spacing, Station};
-use crate::lattice::Node;
-use crate::Lattice;
 
 /// A distance that falls by less has not changed, passes.
 const SAME: f64 = 1e-9;
 /// Nodes between two questions whether to go on.
 const ASKED: usize = 4096;
 
-/// Stations at the nodes of a lattice, and triangles between them.
-pub struct Net {
-    pub lattice: Lattice,
-    /// By node; none where nothing selected is touched.
-    pub stations: Vec<Option<Station>>,
-    /// By cell: whether it is divided from its lower right to its upper left.
-    falling: Vec<bool>,
-    spacing: Spacing,
+/// The distance of a station from the nearer of two others or what lies between them, whose distances are given.
+pub fn reached(spacing: &Spacing, station: &Station, ends: [(&Station, f64); 2]) -> f64 {
+    let [(first, near), (second, far)] = ends;
+    let sides = [spacing.between(first, second), spacing.between(first, station)];
+    over_side(sides, spacing.between(second, station), [near, far])
 }
 
-/// Three nodes, counterclockwise.
-pub type Triangle = [usize; 3];
-
 impl Net {
-    /// Cells are divided along the shorter of their diagonals.
-    pub fn new(lattice: Lattice, stations: Vec<Option<Station>>, spacing: Spacing) -> Self {
-        let falls = |cell: Node| {
-            let corners = lattice.corner_numbers(cell).map(|number| stations[number]);
-            match corners {
-                [Some(a), Some(b), Some(c), Some(d)] => spacing.between(&b, &d) < spacing.between(&a, &c),
-                [_, Some(_), _, Some(_)] => true,
-                _ => false,
-            }
-        };
-        let falling = lattice.cells().iter().map(falls).collect();
-        Self { lattice, stations, falling, spacing }
-    }
-
-    /// The triangles of a cell whose corners all have a station.
-    pub fn triangles(&self, cell: Node) -> impl Iterator<Item = Triangle> + '_ {
-        let [a, b, c, d] = self.lattice.corner_numbers(cell);
-        let halves =
-            if self.falling[self.lattice.number(cell)] { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
-        halves.into_iter().filter(|half| half.iter().all(|node| self.stations[*node].is_some()))
-    }
-
-    /// The cells around a node.
-    fn around(&self, node: usize) -> impl Iterator<Item = Node> + '_ {
-        let width = self.lattice.columns + 1;
-        let (column, row) = (node % width, node / width);
-        let columns = column.saturating_sub(1)..(column + 1).min(self.lattice.columns);
-        let rows = row.saturating_sub(1)..(row + 1).min(self.lattice.rows);
-        rows.flat_map(move |row| columns.clone().map(move |column| [column, row]))
-    }
-
-    /// The distance of a station from the nearer of two others or what lies between them, whose distances are given.
-    pub fn reached(&self, station: &Station, ends: [(&Station, f64); 2]) -> f64 {
-        let [(first, near), (second, far)] = ends;
-        let sides = [self.spacing.between(first, second), self.spacing.between(first, station)];
-        over_side(sides, self.spacing.between(second, station), [near, far])
-    }
-
     /// The distance of each node from the nearest of the `sources`, nodes whose distance is known; infinite where none is
     /// reached.
     ///
@@ -113,15 +68,22 @@ impl Net {
 
     /// The distance of a node through the side between two others.
     fn through(&self, side: [usize; 2], to: usize, distances: &[f64]) -> f64 {
-        let [Some(first), Some(second), Some(station)] = [side[0], side[1], to].map(|node| self.stations[node]) else {
-            return f64::INFINITY;
-        };
         let [near, far] = side.map(|node| distances[node]);
+        let first = self.length(side[0], to);
         if far.is_infinite() {
-            return near + self.spacing.between(&first, &station);
+            return near + first;
         }
-        self.reached(&station, [(&first, near), (&second, far)])
+        over_side([self.length(side[0], side[1]), first], self.length(side[1], to), [near, far])
     }
+}
+
+/// How steep a field is in a triangle: passes crossed over passes gone. 1 where a front goes over it.
+pub fn slope(net: &Net, values: &[f64], [a, b, c]: Triangle) -> f64 {
+    let (side, first, third) = (net.length(a, b), net.length(a, c), net.length(b, c));
+    let along = (first * first + side * side - third * third) / (2.0 * side);
+    let over = (first * first - along * along).sqrt();
+    let rise = (values[b] - values[a]) / side;
+    libm::hypot(rise, (values[c] - values[a] - rise * along) / over)
 }
 
 /// The least distance of the corner of a triangle over its opposite side, at whose ends the distances are known.
