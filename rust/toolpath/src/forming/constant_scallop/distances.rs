@@ -12,7 +12,7 @@ use std::collections::BinaryHeap;
 
 use styluscam_motion::{Cancelled, Watch};
 
-use super::net::{Net, Triangle};
+use super::net::Net;
 use super::stations::{Spacing, Station};
 
 /// A distance that falls by less has not changed, passes.
@@ -66,6 +66,30 @@ impl Net {
         Ok(distances)
     }
 
+    /// How steep a field is around a node: passes crossed over passes gone. 1 where a front goes over it, the cosine of half the angle
+    /// between two that meet there; none where the field ends.
+    pub fn slope(&self, values: &[f64], node: usize) -> Option<f64> {
+        let width = self.lattice.columns + 1;
+        let [column, row] = self.place(node);
+        if column == 0 || row == 0 || column == self.lattice.columns || row == self.lattice.rows {
+            return None;
+        }
+        let rates = [1, width].map(|step| 0.5 * (values[node + step] - values[node - step]));
+        let [along, up] =
+            [1, width].map(|step| 0.5 * (self.length(node, node + step) + self.length(node - step, node)));
+        let (diagonal, sign) = match self.is_falling([column, row]) {
+            true => (self.length(node + 1, node + width), -1.0),
+            false => (self.length(node, node + width + 1), 1.0),
+        };
+        // the cosine between both directions in the metric, from the diagonal between their ends
+        let sides = [self.length(node, node + 1), self.length(node, node + width)];
+        let product = sides[0] * sides[1];
+        let cos = sign * (diagonal * diagonal - sides[0] * sides[0] - sides[1] * sides[1]) / (2.0 * product);
+        let rates = [rates[0] / along, rates[1] / up];
+        let square = rates[0] * rates[0] - 2.0 * cos * rates[0] * rates[1] + rates[1] * rates[1];
+        Some((square / (1.0 - cos * cos)).sqrt()).filter(|slope| slope.is_finite())
+    }
+
     /// The distance of a node through the side between two others.
     fn through(&self, side: [usize; 2], to: usize, distances: &[f64]) -> f64 {
         let [near, far] = side.map(|node| distances[node]);
@@ -75,15 +99,6 @@ impl Net {
         }
         over_side([self.length(side[0], side[1]), first], self.length(side[1], to), [near, far])
     }
-}
-
-/// How steep a field is in a triangle: passes crossed over passes gone. 1 where a front goes over it.
-pub fn slope(net: &Net, values: &[f64], [a, b, c]: Triangle) -> f64 {
-    let (side, first, third) = (net.length(a, b), net.length(a, c), net.length(b, c));
-    let along = (first * first + side * side - third * third) / (2.0 * side);
-    let over = (first * first - along * along).sqrt();
-    let rise = (values[b] - values[a]) / side;
-    libm::hypot(rise, (values[c] - values[a] - rise * along) / over)
 }
 
 /// The least distance of the corner of a triangle over its opposite side, at whose ends the distances are known.

@@ -66,13 +66,18 @@ impl Net {
         let [column, row] = self.place(node);
         let (is_last_column, is_last_row) = (column == self.lattice.columns, row == self.lattice.rows);
         let diagonal = (!is_last_column && !is_last_row).then(|| {
-            if self.falling[self.lattice.number([column, row])] {
+            if self.is_falling([column, row]) {
                 [node + 1, node + width]
             } else {
                 [node, node + width + 1]
             }
         });
         [(!is_last_column).then_some([node, node + 1]), (!is_last_row).then_some([node, node + width]), diagonal]
+    }
+
+    /// Whether a cell is divided from its lower right to its upper left.
+    pub fn is_falling(&self, cell: Node) -> bool {
+        self.falling[self.lattice.number(cell)]
     }
 
     /// The length of a side, and where it crosses a crease.
@@ -115,8 +120,7 @@ impl Net {
     /// The triangles of a cell whose corners all have a station.
     pub fn triangles(&self, cell: Node) -> impl Iterator<Item = Triangle> + '_ {
         let [a, b, c, d] = self.lattice.corner_numbers(cell);
-        let halves =
-            if self.falling[self.lattice.number(cell)] { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
+        let halves = if self.is_falling(cell) { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
         halves.into_iter().filter(|half| half.iter().all(|node| self.stations[*node].is_some()))
     }
 

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use rayon::prelude::*;
 use styluscam_motion::{Cancelled, Watch};
 
 use super::creases::Creases;
-use super::distances::{reached, slope};
+use super::distances::reached;
 use super::net::{Net, Triangle};
 use super::stations::Station;
 use super::thinning::middle_lines;
@@ -17,6 +18,8 @@ const HALF: f64 = 0.525;
 const MEET: f64 = 0.9;
 /// Ridges are followed so far around what is not covered, passes.
 const AROUND: f64 = 0.8;
+/// As far from a node as it is to the next, passes.
+const NEAR: f64 = 0.1;
 /// Distances to either side, in cells, between which the slope on a side of a ridge is measured.
 const SIDES: [f64; 2] = [1.0, 2.0];
 /// Times that a line is smoothed.
@@ -28,22 +31,31 @@ const SMOOTHED: usize = 3;
 /// `Cancelled` when `watch` is cancelled.
 pub fn lines(net: &Net, values: &[f64], creases: &Creases<'_>, watch: &Watch) -> Result<Vec<Vec<[f64; 2]>>, Cancelled> {
     let left = net.distances(&sources(net, values, creases), watch)?;
-    let open: Vec<(usize, f64)> = (0..left.len())
-        .filter(|node| left[*node] > HALF && values[*node].is_finite())
-        .map(|node| (node, 0.0))
-        .collect();
-    let from_open = net.distances(&open, watch)?;
-    let is_near = |cell: Node| net.lattice.corner_numbers(cell).iter().any(|node| from_open[*node] <= AROUND);
-    let is_ridge = |cell: Node| net.triangles(cell).any(|triangle| slope(net, values, triangle) < MEET);
-    let mut cells: BTreeSet<Node> =
-        net.lattice.cells().iter().filter(|cell| is_near(*cell) && is_ridge(*cell)).collect();
+    let meets = |node: &usize| net.slope(values, *node).is_some_and(|slope| slope < MEET);
+    let ridges: Vec<usize> = (0..left.len()).into_par_iter().filter(meets).collect();
+    let open: Vec<usize> = (0..left.len()).filter(|node| left[*node] > HALF && values[*node].is_finite()).collect();
+    let on_ridges = ridges.iter().filter(|node| is_open(net, values, **node));
+    let from_open = net.distances(&at(open.iter().chain(on_ridges)), watch)?;
+    let mut strip: BTreeSet<usize> = ridges.into_iter().filter(|node| from_open[*node] <= AROUND).collect();
     // where no ridge is seen what is not covered is followed itself
-    let from_ridges: Vec<(usize, f64)> =
-        cells.iter().flat_map(|cell| net.lattice.corner_numbers(*cell)).map(|node| (node, 0.0)).collect();
-    let from_ridges = net.distances(&from_ridges, watch)?;
-    let alone = open.iter().map(|(node, _)| *node).filter(|node| from_ridges[*node] > AROUND);
-    cells.extend(alone.flat_map(|node| net.around(node)));
-    Ok(middle_lines(cells).into_iter().map(|line| Ridge { net, values }.line(&line)).collect())
+    let from_ridges = net.distances(&at(strip.iter()), watch)?;
+    strip.extend(open.into_iter().filter(|node| from_ridges[*node] > AROUND));
+    let strip = strip.into_iter().map(|node| net.place(node)).collect();
+    Ok(middle_lines(strip).into_iter().map(|line| Ridge { net, values }.line(&line)).collect())
+}
+
+/// Nodes from which distances count.
+fn at<'a>(nodes: impl Iterator<Item = &'a usize>) -> Vec<(usize, f64)> {
+    nodes.map(|node| (*node, 0.0)).collect()
+}
+
+/// Whether there is a point near a node of a ridge that the passes on both sides leave open: where the slope is s, it is 1 / s
+/// times as far away along the ridge from the pass on the higher side as it is by its value.
+fn is_open(net: &Net, values: &[f64], node: usize) -> bool {
+    let Some(slope) = net.slope(values, node) else { return false };
+    let pass = values[node].floor();
+    let share = values[node] - pass;
+    (share > HALF - NEAR || pass < 1.0) && share < 1.0 - HALF * slope + NEAR
 }
 
 /// The nodes beside passes, with their distances from these.
@@ -93,17 +105,17 @@ fn crossing(net: &Net, values: &[f64], level: f64, [a, b]: [usize; 2]) -> Option
     Some(Station { tip: a.tip + (b.tip - a.tip) * share, normal })
 }
 
-/// Lines of cells along a ridge of a field.
+/// Lines of nodes along a ridge of a field.
 struct Ridge<'a> {
     net: &'a Net,
     values: &'a [f64],
 }
 
 impl Ridge<'_> {
-    /// The line in plan along a line of cells.
-    fn line(&self, cells: &[Node]) -> Vec<[f64; 2]> {
+    /// The line in plan along a line of nodes.
+    fn line(&self, nodes: &[Node]) -> Vec<[f64; 2]> {
         let lattice = &self.net.lattice;
-        let middles: Vec<[f64; 2]> = cells.iter().map(|cell| lattice.point(cell.map(|i| i as f64 + 0.5))).collect();
+        let middles: Vec<[f64; 2]> = nodes.iter().map(|node| lattice.point(node.map(|i| i as f64))).collect();
         if let [only] = middles[..] {
             let [x, y] = only;
             return vec![[x - 0.5 * lattice.cell, y], [x + 0.5 * lattice.cell, y]];
