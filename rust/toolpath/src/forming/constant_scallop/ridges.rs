@@ -22,6 +22,10 @@ const AROUND: f64 = 0.8;
 const NEAR: f64 = 0.1;
 /// Distances to either side, in cells, between which the slope on a side of a ridge is measured.
 const SIDES: [f64; 2] = [1.0, 2.0];
+/// By so many cells lines are shorter than the strips whose middles they are, at each end.
+const ENDS: f64 = 2.5;
+/// Points back to which the direction of an end is taken.
+const TANGENT: usize = 4;
 /// Times that a line is smoothed.
 const SMOOTHED: usize = 3;
 
@@ -122,7 +126,7 @@ impl Ridge<'_> {
         }
         let mut line = smoothed(middles, SMOOTHED);
         line = (0..line.len()).map(|i| self.on_ridge(&line, i)).collect();
-        smoothed(line, SMOOTHED)
+        lengthened(smoothed(line, SMOOTHED), ENDS * lattice.cell)
     }
 
     /// A point of a line, moved across it to where the field is highest: where the slopes on both sides meet.
@@ -165,6 +169,22 @@ impl Ridge<'_> {
         let value = (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v;
         value.is_finite().then_some(value)
     }
+}
+
+/// A line that goes on straight at both ends, unless it is closed.
+fn lengthened(mut line: Vec<[f64; 2]>, by: f64) -> Vec<[f64; 2]> {
+    let beyond = |end: [f64; 2], before: [f64; 2]| {
+        let along = [end[0] - before[0], end[1] - before[1]];
+        let length = libm::hypot(along[0], along[1]).max(f64::MIN_POSITIVE);
+        [0, 1].map(|i| end[i] + by / length * along[i])
+    };
+    let back = TANGENT.min(line.len() - 1);
+    if line.first() != line.last() {
+        let (first, last) = (beyond(line[0], line[back]), beyond(line[line.len() - 1], line[line.len() - 1 - back]));
+        line.insert(0, first);
+        line.push(last);
+    }
+    line
 }
 
 /// A line whose inner points are moved to the means around them.

@@ -1,6 +1,7 @@
 //! The middle lines of strips of cells.
 //!
-//! T. Y. Zhang, C. Y. Suen, "A fast parallel algorithm for thinning digital patterns", Communications of the ACM 27, 1984.
+//! Z. Guo, R. W. Hall, "Parallel thinning with two-subiteration algorithms", Communications of the ACM 32, 1989: strips that are
+//! two cells wide stay, in any direction.
 
 use std::collections::BTreeSet;
 
@@ -29,15 +30,8 @@ pub fn middle_lines(cells: BTreeSet<Node>) -> Vec<Vec<Node>> {
 fn thinned(mut cells: BTreeSet<Node>) -> BTreeSet<Node> {
     loop {
         let before = cells.len();
-        for [first, second] in [[[0, 2, 4], [2, 4, 6]], [[0, 2, 6], [0, 4, 6]]] {
-            let may_go = |cell: &Node| {
-                let around = around(&cells, *cell);
-                let count = around.iter().filter(|is_set| **is_set).count();
-                let begins = (0..8).filter(|i| !around[*i] && around[(i + 1) % 8]).count();
-                let is_open = |sides: [usize; 3]| sides.iter().any(|i| !around[*i]);
-                (2..=6).contains(&count) && begins == 1 && is_open(first) && is_open(second)
-            };
-            let gone: Vec<Node> = cells.iter().copied().filter(may_go).collect();
+        for first in [0, 4] {
+            let gone: Vec<Node> = cells.iter().copied().filter(|cell| may_go(around(&cells, *cell), first)).collect();
             for cell in gone {
                 cells.remove(&cell);
             }
@@ -46,6 +40,16 @@ fn thinned(mut cells: BTreeSet<Node>) -> BTreeSet<Node> {
             return cells;
         }
     }
+}
+
+/// Whether a cell lies on the edge of a strip, towards one of two sides by the number of the first around it that counts, and
+/// neither at the strip's end nor where it is one cell wide.
+fn may_go(around: [bool; 8], first: usize) -> bool {
+    let set = |i: usize| around[i % 8];
+    let parts = (0..4).filter(|i| !set(2 * i) && (set(2 * i + 1) || set(2 * i + 2))).count();
+    let pairs = |from: usize| (0..4).filter(|i| set(2 * i + from) || set(2 * i + from + 1)).count();
+    let is_towards = !((set(first) || set(first + 1) || !set(first + 3)) && set(first + 2));
+    parts == 1 && (2..=3).contains(&pairs(0).min(pairs(7))) && is_towards
 }
 
 fn around(cells: &BTreeSet<Node>, cell: Node) -> [bool; 8] {
@@ -66,6 +70,18 @@ mod tests {
         let lines = middle_lines(strip);
         assert_eq!(lines.len(), 1);
         assert!(lines[0].len() > 12 && lines[0].iter().all(|cell| (5..=7).contains(&cell[1])), "{lines:?}");
+    }
+
+    #[test]
+    fn strips_two_cells_wide_stay_in_any_direction() {
+        for [right, up] in [[1, 0], [0, 1], [1, 1]] {
+            let wide = (0..30).flat_map(|i| [[i * right, i * up], [i * right + 1 - right * up, i * up + 1]]);
+            let lines = middle_lines(wide.collect());
+            assert!(lines.len() == 1 && lines[0].len() > 25, "{right} {up}: {lines:?}");
+        }
+        let falling = (0..30).flat_map(|i| [[i, 40 - i], [i + 1, 40 - i]]);
+        let lines = middle_lines(falling.collect());
+        assert!(lines.len() == 1 && lines[0].len() > 25, "{lines:?}");
     }
 
     #[test]
