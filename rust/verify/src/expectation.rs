@@ -79,6 +79,11 @@ pub enum Passes {
     Clearing(Clearing),
     /// Along ruled surfaces, touched with the side of a tool that leans: what the moving tool leaves of them is checked.
     Flank(FlankPasses),
+    /// In no order that is known: what they leave of the faces where the tool can touch is checked.
+    Covering {
+        /// The most that may be left, mm.
+        scallop: f64,
+    },
     /// Nothing is known of their order; the report gives the reason.
     Unordered {
         /// Why they are not checked, as half a sentence.
@@ -190,7 +195,7 @@ impl Expectation {
         match &self.passes {
             Passes::Ordered(passes) => std::slice::from_ref(passes),
             Passes::Crossed(sets) => sets,
-            Passes::Clearing(_) | Passes::Flank(_) | Passes::Unordered { .. } => &[],
+            Passes::Clearing(_) | Passes::Flank(_) | Passes::Covering { .. } | Passes::Unordered { .. } => &[],
         }
     }
 
@@ -208,7 +213,11 @@ impl Expectation {
     pub(crate) fn clearing(&self) -> Option<&Clearing> {
         match &self.passes {
             Passes::Clearing(clearing) => Some(clearing),
-            Passes::Ordered(_) | Passes::Crossed(_) | Passes::Flank(_) | Passes::Unordered { .. } => None,
+            Passes::Ordered(_)
+            | Passes::Crossed(_)
+            | Passes::Flank(_)
+            | Passes::Covering { .. }
+            | Passes::Unordered { .. } => None,
         }
     }
 
@@ -216,7 +225,11 @@ impl Expectation {
     pub(crate) fn flank(&self) -> Option<&FlankPasses> {
         match &self.passes {
             Passes::Flank(passes) => Some(passes),
-            Passes::Ordered(_) | Passes::Crossed(_) | Passes::Clearing(_) | Passes::Unordered { .. } => None,
+            Passes::Ordered(_)
+            | Passes::Crossed(_)
+            | Passes::Clearing(_)
+            | Passes::Covering { .. }
+            | Passes::Unordered { .. } => None,
         }
     }
 

@@ -53,7 +53,7 @@ impl OperationKind for ConstantScallop {
     }
 
     fn passes(&self, _given: &PassContext<'_>) -> Passes {
-        Passes::Unordered { reason: "no scalar is defined for contours of equal scallop" }
+        Passes::Covering { scallop: self.scallop }
     }
 
     fn spacing(&self) -> Option<PassSpacing> {

@@ -101,7 +101,11 @@ fn with_passes<T>(
 pub fn descent_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &OperationSection) -> Option<OrderedPasses> {
     match passes_of(job, (scene, &[]), tool, section) {
         Passes::Ordered(passes) => Some(passes).filter(|passes| passes.scalar.descends()),
-        Passes::Crossed(_) | Passes::Clearing(_) | Passes::Flank(_) | Passes::Unordered { .. } => None,
+        Passes::Crossed(_)
+        | Passes::Clearing(_)
+        | Passes::Flank(_)
+        | Passes::Covering { .. }
+        | Passes::Unordered { .. } => None,
     }
 }
 

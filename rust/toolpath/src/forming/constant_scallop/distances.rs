@@ -29,11 +29,11 @@ pub fn reached(spacing: &Spacing, station: &Station, ends: [(&Station, f64); 2])
 
 impl Net {
     /// The distance of each node from the nearest of the `sources`, nodes whose distance is known; infinite where none is
-    /// reached.
+    /// reached, and beyond `most` passes perhaps too large.
     ///
     /// # Errors
     /// `Cancelled` when `watch` is cancelled.
-    pub fn distances(&self, sources: &[(usize, f64)], watch: &Watch) -> Result<Vec<f64>, Cancelled> {
+    pub fn distances(&self, sources: &[(usize, f64)], most: f64, watch: &Watch) -> Result<Vec<f64>, Cancelled> {
         let mut distances = vec![f64::INFINITY; self.stations.len()];
         let mut open = BinaryHeap::new();
         for (node, distance) in sources {
@@ -44,7 +44,7 @@ impl Net {
         }
         let mut passed = 0;
         while let Some(Reverse((Ordered(distance), node))) = open.pop() {
-            if distance > distances[node] {
+            if distance > distances[node] || distance > most {
                 continue;
             }
             passed += 1;

@@ -60,7 +60,7 @@ pub fn constant_scallop(
 ) -> Result<Vec<Pass>, PlanError> {
     let net = net(surface, body, contours, watch)?.ok_or_else(|| PlanError::NothingReached(String::new()))?;
     watch.begin("distances", net.stations.len());
-    let values = net.distances(&borders::beside(&net, surface, 1.0 - FIRST), watch)?;
+    let values = net.distances(&borders::beside(&net, surface, 1.0 - FIRST), f64::INFINITY, watch)?;
     let by_level = cells_by_level(&net, &values, contours.scallop)?;
     let creases = Creases::of(&net);
     let lines = (0..by_level.len()).into_par_iter().flat_map_iter(|number| {

@@ -34,15 +34,15 @@ const SMOOTHED: usize = 3;
 /// # Errors
 /// `Cancelled` when `watch` is cancelled.
 pub fn lines(net: &Net, values: &[f64], creases: &Creases<'_>, watch: &Watch) -> Result<Vec<Vec<[f64; 2]>>, Cancelled> {
-    let left = net.distances(&sources(net, values, creases), watch)?;
+    let left = net.distances(&sources(net, values, creases), f64::INFINITY, watch)?;
     let meets = |node: &usize| net.slope(values, *node).is_some_and(|slope| slope < MEET);
     let ridges: Vec<usize> = (0..left.len()).into_par_iter().filter(meets).collect();
     let open: Vec<usize> = (0..left.len()).filter(|node| left[*node] > HALF && values[*node].is_finite()).collect();
     let on_ridges = ridges.iter().filter(|node| is_open(net, values, **node));
-    let from_open = net.distances(&at(open.iter().chain(on_ridges)), watch)?;
+    let from_open = net.distances(&at(open.iter().chain(on_ridges)), AROUND, watch)?;
     let mut strip: BTreeSet<usize> = ridges.into_iter().filter(|node| from_open[*node] <= AROUND).collect();
     // where no ridge is seen what is not covered is followed itself
-    let from_ridges = net.distances(&at(strip.iter()), watch)?;
+    let from_ridges = net.distances(&at(strip.iter()), AROUND, watch)?;
     strip.extend(open.into_iter().filter(|node| from_ridges[*node] > AROUND));
     let strip = strip.into_iter().map(|node| net.place(node)).collect();
     Ok(middle_lines(strip).into_iter().map(|line| Ridge { net, values }.line(&line)).collect())
