@@ -69,25 +69,31 @@ impl Net {
     /// How steep a field is around a node: passes crossed over passes gone. 1 where a front goes over it, the cosine of half the angle
     /// between two that meet there; none where the field ends.
     pub fn slope(&self, values: &[f64], node: usize) -> Option<f64> {
+        self.step(values, node).map(|(_, slope)| slope)
+    }
+
+    /// The way in plan to the next pass from a node, mm, and how steep the field is there.
+    pub fn step(&self, values: &[f64], node: usize) -> Option<([f64; 2], f64)> {
         let width = self.lattice.columns + 1;
         let [column, row] = self.place(node);
         if column == 0 || row == 0 || column == self.lattice.columns || row == self.lattice.rows {
             return None;
         }
-        let rates = [1, width].map(|step| 0.5 * (values[node + step] - values[node - step]));
-        let [along, up] =
-            [1, width].map(|step| 0.5 * (self.length(node, node + step) + self.length(node - step, node)));
+        let lengths = [1, width].map(|step| 0.5 * (self.length(node, node + step) + self.length(node - step, node)));
         let (diagonal, sign) = match self.is_falling([column, row]) {
             true => (self.length(node + 1, node + width), -1.0),
             false => (self.length(node, node + width + 1), 1.0),
         };
         // the cosine between both directions in the metric, from the diagonal between their ends
-        let sides = [self.length(node, node + 1), self.length(node, node + width)];
-        let product = sides[0] * sides[1];
-        let cos = sign * (diagonal * diagonal - sides[0] * sides[0] - sides[1] * sides[1]) / (2.0 * product);
-        let rates = [rates[0] / along, rates[1] / up];
-        let square = rates[0] * rates[0] - 2.0 * cos * rates[0] * rates[1] + rates[1] * rates[1];
-        Some((square / (1.0 - cos * cos)).sqrt()).filter(|slope| slope.is_finite())
+        let [right, up] = [self.length(node, node + 1), self.length(node, node + width)];
+        let cos = sign * (diagonal * diagonal - right * right - up * up) / (2.0 * right * up);
+        let rises = [1, width].map(|step| 0.5 * (values[node + step] - values[node - step]));
+        let [along, across] = [0, 1].map(|i| rises[i] / lengths[i]);
+        let sin = 1.0 - cos * cos;
+        let steepest = [(along - cos * across) / sin, (across - cos * along) / sin];
+        let slope = (along * steepest[0] + across * steepest[1]).sqrt();
+        let step = [0, 1].map(|i| steepest[i] / slope / lengths[i] * self.lattice.cell);
+        Some((step, slope)).filter(|(step, slope)| slope.is_finite() && step.iter().all(|part| part.is_finite()))
     }
 
     /// The distance of a node through the side between two others.

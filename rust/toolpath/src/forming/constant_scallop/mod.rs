@@ -8,6 +8,7 @@ mod chains;
 mod creases;
 mod distances;
 mod level_lines;
+mod measured;
 mod net;
 mod ridges;
 mod stations;
@@ -29,6 +30,8 @@ const NODES: [f64; 2] = [2.0, 5.0];
 const MOST: f64 = 0.99;
 /// How much finer the second lattice is at most.
 const FINEST: f64 = 0.1;
+/// Times that the ridges are measured and the field is found again.
+const MEASURED: usize = 2;
 /// Passes at most.
 const LIMIT: usize = 100_000;
 /// From the border to the first pass, in passes: a little less than half of what lies between two.
@@ -58,9 +61,15 @@ pub fn constant_scallop(
     deviation: f64,
     watch: &Watch,
 ) -> Result<Vec<Pass>, PlanError> {
-    let net = net(surface, body, contours, watch)?.ok_or_else(|| PlanError::NothingReached(String::new()))?;
+    let mut net = net(surface, body, contours, watch)?.ok_or_else(|| PlanError::NothingReached(String::new()))?;
     watch.begin("distances", net.stations.len());
-    let values = net.distances(&borders::beside(&net, surface, 1.0 - FIRST), f64::INFINITY, watch)?;
+    let sources = borders::beside(&net, surface, 1.0 - FIRST);
+    let mut values = net.distances(&sources, f64::INFINITY, watch)?;
+    for _ in 0..MEASURED {
+        let factors = measured::factors(&net, surface, &values, net.spacing.height(), watch)?;
+        net.scale(&factors);
+        values = net.distances(&sources, f64::INFINITY, watch)?;
+    }
     let by_level = cells_by_level(&net, &values, contours.scallop)?;
     let creases = Creases::of(&net);
     let lines = (0..by_level.len()).into_par_iter().flat_map_iter(|number| {

@@ -89,6 +89,16 @@ impl Net {
         }
     }
 
+    /// Makes the sides around each node longer by a factor.
+    pub fn scale(&mut self, factors: &[f64]) {
+        for node in 0..self.lengths.len() {
+            for (number, side) in self.sides(node).into_iter().enumerate() {
+                let Some([a, b]) = side else { continue };
+                self.lengths[node][number] *= 0.5 * (factors[a] + factors[b]);
+            }
+        }
+    }
+
     /// Column and row of a node.
     pub fn place(&self, node: usize) -> Node {
         let width = self.lattice.columns + 1;

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use rayon::prelude::*;
+use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
 use super::creases::Creases;
@@ -106,7 +107,8 @@ fn crossing(net: &Net, values: &[f64], level: f64, [a, b]: [usize; 2]) -> Option
     let share = (level - from) / (to - from);
     let (a, b) = (net.stations[a]?, net.stations[b]?);
     let normal = (a.normal + (b.normal - a.normal) * share).try_normalize(f64::EPSILON)?;
-    Some(Station { tip: a.tip + (b.tip - a.tip) * share, normal })
+    let between = |from: Vector, to: Vector| from + (to - from) * share;
+    Some(Station { tip: between(a.tip, b.tip), normal, contact: between(a.contact, b.contact) })
 }
 
 /// Lines of nodes along a ridge of a field.

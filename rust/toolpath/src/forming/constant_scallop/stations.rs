@@ -23,13 +23,16 @@ pub struct Station {
     pub tip: Vector,
     /// Unit normal of the smooth model behind the contact; of the contact itself at an edge.
     pub normal: Vector,
+    /// The point of the part that is touched.
+    pub contact: Vector,
 }
 
 impl Station {
     /// Of a contact over a position in plan; none where it is not selected.
     pub fn of(surface: &Surface<'_>, [x, y]: [f64; 2], contact: &Contact) -> Option<Self> {
         let PathPoint { tip, normal, selected, triangle } = surface.path_point(x, y, contact);
-        selected.then(|| Self { tip, normal: smooth_normal(surface, triangle as usize, contact.point, normal) })
+        let smooth = || smooth_normal(surface, triangle as usize, contact.point, normal);
+        selected.then(|| Self { tip, normal: smooth(), contact: contact.point })
     }
 }
 
@@ -73,6 +76,11 @@ impl Spacing {
         };
         let chords = (0..=SLOPES).map(of_slope).collect();
         Self { chords, per_turn: (8.0 * height).recip() }
+    }
+
+    /// The ridges that passes one apart are to leave, mm.
+    pub fn height(&self) -> f64 {
+        (8.0 * self.per_turn).recip()
     }
 
     /// The distance of passes on a level plane, mm.
