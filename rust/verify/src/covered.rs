@@ -12,7 +12,7 @@ use crate::faults::{self, Fault};
 use crate::probes::{self, Probe};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
-use crate::tolerances::ROOM;
+use crate::tolerances::{ROOM, VERTICAL};
 
 /// Points that are looked at for an operation, as for passes in an order.
 const POINTS: usize = 20_000;
@@ -61,7 +61,10 @@ struct Cover<'a> {
 
 impl Cover<'_> {
     fn faults(&self, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
-        let probes = probes::spread(self.subject.mesh, &self.operation.expectation.triangles(), POINTS);
+        let mut triangles = self.operation.expectation.triangles();
+        // passes that lie side by side in plan pass upright walls at one height
+        triangles.retain(|triangle| self.subject.mesh.normal(*triangle).z > VERTICAL);
+        let probes = probes::spread(self.subject.mesh, &triangles, POINTS);
         watch.begin("scallops", probes.len().div_ceil(CHUNK));
         let of_chunk = |chunk: &[Probe]| {
             watch.advance(1)?;

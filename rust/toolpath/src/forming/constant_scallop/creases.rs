@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use styluscam_geometry::Vector;
 
 use super::chains::Beside;
+use super::distances::reached;
 use super::net::{Net, Triangle};
 use super::stations::Station;
 use crate::Surface;
@@ -14,6 +15,11 @@ const TURNS: f64 = 0.1;
 /// Share of that angle that is left where a side of a lattice's cell has been halved [`HALVINGS`] times, if it is a crease and no
 /// fillet.
 const SUDDEN: f64 = 0.5;
+/// What is higher over a crease, mm, and steeper, is a wall.
+const JUMP: f64 = 0.01;
+const STEEPEST: f64 = 100.0;
+/// A pass along a wall's foot is so far off it, mm, that rounding does not lift it onto the wall.
+const OFF: f64 = 0.002;
 /// Halvings of a side.
 const HALVINGS: usize = 10;
 
@@ -37,10 +43,31 @@ impl Crossing {
         }
     }
 
-    /// Its position in plan, mm.
+    /// Whether the tool has to be lifted to cross it: an upright wall stands there.
+    pub fn is_jump(&self) -> bool {
+        let shift = self.stations[1].tip - self.stations[0].tip;
+        shift.z.abs() > JUMP + STEEPEST * shift.xy().norm()
+    }
+
+    /// The stations below and above a wall.
+    pub fn below_and_above(&self) -> [&Station; 2] {
+        let [first, second] = &self.stations;
+        if first.tip.z <= second.tip.z {
+            [first, second]
+        } else {
+            [second, first]
+        }
+    }
+
+    /// The position in plan of the pass along it, mm: before a wall a little off it.
     pub fn position(&self) -> [f64; 2] {
-        let middle = (self.stations[0].tip + self.stations[1].tip) * 0.5;
-        [middle.x, middle.y]
+        let [below, above] = self.below_and_above();
+        let (low, shift) = (below.tip.xy(), below.tip.xy() - above.tip.xy());
+        let place = match shift.try_normalize(0.0) {
+            Some(away) if self.is_jump() => low + OFF * away,
+            Some(_) | None => low - 0.5 * shift,
+        };
+        [place.x, place.y]
     }
 }
 
@@ -82,7 +109,7 @@ impl<'a> Creases<'a> {
         let by_side: BTreeMap<[usize; 2], &Crossing> = net.crossings.iter().map(|c| (c.side, c)).collect();
         let cells: BTreeSet<[usize; 2]> = by_side.keys().flat_map(|side| net.around(side[0])).collect();
         let mut pieces = Vec::new();
-        for triangle in cells.into_iter().flat_map(|cell| net.triangles(cell)) {
+        for triangle in cells.into_iter().flat_map(|cell| net.halves(cell)) {
             let sides = [0, 1, 2].map(|i| {
                 let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
                 [a.min(b), a.max(b)]
@@ -101,6 +128,21 @@ impl<'a> Creases<'a> {
         let chains = Beside::of(self.pieces.iter().map(|(_, sides)| *sides)).chains();
         let at = |side: &[usize; 2]| self.by_side.get(side).map(|crossing| crossing.position());
         chains.iter().map(|chain| chain.iter().filter_map(at).collect()).collect()
+    }
+
+    /// The nodes beside walls, with their distances: a pass runs along the foot, and `above` is the distance at its top.
+    pub fn beside_walls(&self, net: &Net, above: f64) -> Vec<(usize, f64)> {
+        let mut sources = Vec::new();
+        for (triangle, crossings) in self.pieces().filter(|(_, crossings)| crossings.iter().all(|c| c.is_jump())) {
+            let [[foot, top], [other_foot, other_top]] = crossings.map(Crossing::below_and_above);
+            for node in triangle {
+                let Some(station) = net.stations[node] else { continue };
+                let is_below = station.tip.z < 0.5 * (foot.tip.z + top.tip.z);
+                let (ends, at) = if is_below { ([foot, other_foot], 0.0) } else { ([top, other_top], above) };
+                sources.push((node, reached(&net.spacing, &station, ends.map(|end| (end, at)))));
+            }
+        }
+        sources
     }
 
     /// The triangles that they cross, with both crossings.

@@ -63,7 +63,8 @@ pub fn constant_scallop(
 ) -> Result<Vec<Pass>, PlanError> {
     let mut net = net(surface, body, contours, watch)?.ok_or_else(|| PlanError::NothingReached(String::new()))?;
     watch.begin("distances", net.stations.len());
-    let sources = borders::beside(&net, surface, 1.0 - FIRST);
+    let mut sources = borders::beside(&net, surface, 1.0 - FIRST);
+    sources.extend(Creases::of(&net).beside_walls(&net, 1.0 - FIRST));
     let mut values = net.distances(&sources, f64::INFINITY, watch)?;
     for _ in 0..MEASURED {
         let factors = measured::factors(&net, surface, &values, net.spacing.height(), watch)?;

@@ -84,6 +84,7 @@ impl Net {
     fn side(&self, surface: &Surface<'_>, side: [usize; 2]) -> (f64, Option<Crossing>) {
         let [Some(a), Some(b)] = side.map(|node| self.stations[node]) else { return (f64::INFINITY, None) };
         match creases::crossing(surface, side, [&a, &b]) {
+            Some(crossing) if crossing.is_jump() => (f64::INFINITY, Some(crossing)),
             Some(crossing) => (self.spacing.over_crease(&a, &b), Some(crossing)),
             None => (self.spacing.between(&a, &b), None),
         }
@@ -127,8 +128,16 @@ impl Net {
         self.lengths.iter().flat_map(|sides| [sides[0], sides[1]]).filter(|length| length.is_finite())
     }
 
-    /// The triangles of a cell whose corners all have a station.
+    /// The triangles of a cell whose corners all have a station, and that no wall crosses.
     pub fn triangles(&self, cell: Node) -> impl Iterator<Item = Triangle> + '_ {
+        let is_whole = |[a, b, c]: &Triangle| {
+            self.length(*a, *b).is_finite() && self.length(*b, *c).is_finite() && self.length(*c, *a).is_finite()
+        };
+        self.halves(cell).filter(is_whole)
+    }
+
+    /// The triangles of a cell whose corners all have a station.
+    pub fn halves(&self, cell: Node) -> impl Iterator<Item = Triangle> + '_ {
         let [a, b, c, d] = self.lattice.corner_numbers(cell);
         let halves = if self.is_falling(cell) { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
         halves.into_iter().filter(|half| half.iter().all(|node| self.stations[*node].is_some()))

@@ -36,9 +36,11 @@ const SMOOTHED: usize = 3;
 /// `Cancelled` when `watch` is cancelled.
 pub fn lines(net: &Net, values: &[f64], creases: &Creases<'_>, watch: &Watch) -> Result<Vec<Vec<[f64; 2]>>, Cancelled> {
     let left = net.distances(&sources(net, values, creases), f64::INFINITY, watch)?;
-    let meets = |node: &usize| net.slope(values, *node).is_some_and(|slope| slope < MEET);
+    // an edge over which the tool rolls is covered from both sides
+    let counts = |node: &usize| values[*node].is_finite() && net.stations[*node].is_some_and(|station| !station.rolls);
+    let meets = |node: &usize| counts(node) && net.slope(values, *node).is_some_and(|slope| slope < MEET);
     let ridges: Vec<usize> = (0..left.len()).into_par_iter().filter(meets).collect();
-    let open: Vec<usize> = (0..left.len()).filter(|node| left[*node] > HALF && values[*node].is_finite()).collect();
+    let open: Vec<usize> = (0..left.len()).filter(|node| left[*node] > HALF && counts(node)).collect();
     let on_ridges = ridges.iter().filter(|node| is_open(net, values, **node));
     let from_open = net.distances(&at(open.iter().chain(on_ridges)), AROUND, watch)?;
     let mut strip: BTreeSet<usize> = ridges.into_iter().filter(|node| from_open[*node] <= AROUND).collect();
@@ -108,7 +110,8 @@ fn crossing(net: &Net, values: &[f64], level: f64, [a, b]: [usize; 2]) -> Option
     let (a, b) = (net.stations[a]?, net.stations[b]?);
     let normal = (a.normal + (b.normal - a.normal) * share).try_normalize(f64::EPSILON)?;
     let between = |from: Vector, to: Vector| from + (to - from) * share;
-    Some(Station { tip: between(a.tip, b.tip), normal, contact: between(a.contact, b.contact) })
+    let (tip, contact) = (between(a.tip, b.tip), between(a.contact, b.contact));
+    Some(Station { tip, normal, contact, rolls: a.rolls && b.rolls })
 }
 
 /// Lines of nodes along a ridge of a field.

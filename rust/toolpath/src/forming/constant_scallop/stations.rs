@@ -25,19 +25,24 @@ pub struct Station {
     pub normal: Vector,
     /// The point of the part that is touched.
     pub contact: Vector,
+    /// Whether the tool rolls over an edge.
+    pub rolls: bool,
 }
 
 impl Station {
     /// Of a contact over a position in plan; none where it is not selected.
     pub fn of(surface: &Surface<'_>, [x, y]: [f64; 2], contact: &Contact) -> Option<Self> {
         let PathPoint { tip, normal, selected, triangle } = surface.path_point(x, y, contact);
-        let smooth = || smooth_normal(surface, triangle as usize, contact.point, normal);
-        selected.then(|| Self { tip, normal: smooth(), contact: contact.point })
+        if !selected {
+            return None;
+        }
+        let smooth = smooth_normal(surface, triangle as usize, contact.point, normal);
+        Some(Self { tip, normal: smooth.unwrap_or(normal), contact: contact.point, rolls: smooth.is_none() })
     }
 }
 
-/// The model's normal at a point of a triangle, where the contact's `normal` differs from it by no more than a facet's does.
-fn smooth_normal(surface: &Surface<'_>, triangle: usize, point: Vector, normal: Vector) -> Vector {
+/// The model's normal at a point of a triangle; none where the contact's `normal` differs from it by more than a facet's does.
+fn smooth_normal(surface: &Surface<'_>, triangle: usize, point: Vector, normal: Vector) -> Option<Vector> {
     let mesh = surface.envelope().mesh();
     let ([a, b, c], normals) = (mesh.corners(triangle), mesh.corner_normals(triangle));
     let area = (b - a).cross(&(c - a));
@@ -45,7 +50,7 @@ fn smooth_normal(surface: &Surface<'_>, triangle: usize, point: Vector, normal: 
         |p: Vector, q: Vector| ((p - point).cross(&(q - point)).dot(&area) / area.norm_squared()).clamp(0.0, 1.0);
     let shares = [part(b, c), part(c, a), part(a, b)];
     let mean: Vector = normals.iter().zip(shares).map(|(normal, share)| normal * share).sum();
-    mean.try_normalize(f64::EPSILON).filter(|mean| mean.dot(&normal) >= SMOOTH).unwrap_or(normal)
+    mean.try_normalize(f64::EPSILON).filter(|mean| mean.dot(&normal) >= SMOOTH)
 }
 
 /// The distances between passes that leave a scallop.
