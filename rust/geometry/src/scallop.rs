@@ -171,6 +171,36 @@ mod tests {
     }
 
     #[test]
+    fn the_level_chord_is_the_width_seen_up_the_face() {
+        for profile in [
+            kinds::Ball { diameter: 10.0, radius: None, tip_flat: 0.0 }.into(),
+            kinds::Parabola { apex_radius: 8.0, diameter: 20.0, tip_flat: 0.0 }.into(),
+            kinds::BullNose { diameter: 10.0, corner_radius: 2.0, tip_flat: 0.0 }.into(),
+        ] {
+            let body = body(profile);
+            for slope in [0.0_f64, 0.4, 1.0] {
+                let (sin, cos) = slope.sin_cos();
+                let (radius, z) = body.point_at(slope);
+                let most = z * cos - radius * sin + 0.05;
+                // the widest of all points of the tool that are no higher over the face: around the axis by an angle from uphill
+                let width = |number: u32| {
+                    let (radius, z) = body.point_at(FRAC_PI_2 * f64::from(number) / 20_000.0);
+                    let over = z * cos - most;
+                    let least = if over > 0.0 { over / (radius * sin) } else { 0.0 };
+                    if least <= 1.0 {
+                        2.0 * radius * (1.0 - least * least).sqrt()
+                    } else {
+                        0.0
+                    }
+                };
+                let widest = (0..=20_000).map(width).fold(0.0, f64::max);
+                let found = body.level_chord(slope, 0.05);
+                assert!((found - widest).abs() < 1e-3 * widest, "{slope}: {found} {widest}");
+            }
+        }
+    }
+
+    #[test]
     fn parabolas_chords_are_those_of_the_closed_form() {
         let parabola = body(kinds::Parabola { apex_radius: 8.0, diameter: 60.0, tip_flat: 0.0 }.into());
         for slope_deg in [20.0_f64, 45.0, 60.0] {
