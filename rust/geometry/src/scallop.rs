@@ -48,6 +48,40 @@ impl ToolBody {
         let wall = Wall { body: self, slope, foot: [radius, z], normal: libm::sincos(slope), height };
         wall.end(FRAC_PI_2) - wall.end(-FRAC_PI_2)
     }
+
+    /// Width of the tool, seen up along a face of a `slope`, at `height` mm above the face, mm: what passes straight up the wall
+    /// cut at that height.
+    #[must_use]
+    pub fn level_chord(&self, slope: f64, height: f64) -> f64 {
+        let (sin, cos) = libm::sincos(slope);
+        // half the width and the height over the face, where the face, turned aside by an angle, would touch
+        let seen = |angle: f64| {
+            let (aside, ahead) = libm::sincos(angle);
+            let lean = libm::hypot(ahead * sin, aside);
+            let (radius, z) = self.point_at(libm::atan2(lean, ahead * cos));
+            if lean > FLOOR {
+                [radius * aside / lean, z * cos - radius * ahead * sin * sin / lean]
+            } else {
+                [radius, z]
+            }
+        };
+        let foot = seen(0.0)[1];
+        let (mut near, mut far) = (0.0, FRAC_PI_2);
+        if seen(far)[1] - foot < height {
+            return 2.0 * self.max_radius();
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (near + far);
+            if seen(middle)[1] - foot < height {
+                near = middle;
+            } else {
+                far = middle;
+            }
+        }
+        let ([s0, d0], [s1, d1]) = (seen(near), seen(far));
+        let share = if d1 > d0 { ((height + foot - d0) / (d1 - d0)).clamp(0.0, 1.0) } else { 0.0 };
+        2.0 * (s0 + share * (s1 - s0))
+    }
 }
 
 /// The tool's section as it stands on a wall.
@@ -132,6 +166,36 @@ mod tests {
             for height in [0.001, 0.05, 0.3] {
                 let chord = 2.0 * (25.0_f64 - (5.0 - height) * (5.0 - height)).sqrt();
                 assert!((ball.scallop_travel(slope, height, LEVELS, 0.0) - chord).abs() < 1e-9, "{slope} {height}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_level_chord_is_the_width_seen_up_the_face() {
+        for profile in [
+            kinds::Ball { diameter: 10.0, radius: None, tip_flat: 0.0 }.into(),
+            kinds::Parabola { apex_radius: 8.0, diameter: 20.0, tip_flat: 0.0 }.into(),
+            kinds::BullNose { diameter: 10.0, corner_radius: 2.0, tip_flat: 0.0 }.into(),
+        ] {
+            let body = body(profile);
+            for slope in [0.0_f64, 0.4, 1.0] {
+                let (sin, cos) = slope.sin_cos();
+                let (radius, z) = body.point_at(slope);
+                let most = z * cos - radius * sin + 0.05;
+                // the widest of all points of the tool that are no higher over the face: around the axis by an angle from uphill
+                let width = |number: u32| {
+                    let (radius, z) = body.point_at(FRAC_PI_2 * f64::from(number) / 20_000.0);
+                    let over = z * cos - most;
+                    let least = if over > 0.0 { over / (radius * sin) } else { 0.0 };
+                    if least <= 1.0 {
+                        2.0 * radius * (1.0 - least * least).sqrt()
+                    } else {
+                        0.0
+                    }
+                };
+                let widest = (0..=20_000).map(width).fold(0.0, f64::max);
+                let found = body.level_chord(slope, 0.05);
+                assert!((found - widest).abs() < 1e-3 * widest, "{slope}: {found} {widest}");
             }
         }
     }

@@ -100,6 +100,11 @@ pub enum Passes {
     Flank(FlankPasses),
     /// Straight down into holes: each is checked.
     Drilling(Drilling),
+    /// In no order that is known: what they leave of the faces where the tool can touch is checked.
+    Covering {
+        /// The most that may be left, mm.
+        scallop: f64,
+    },
     /// Nothing is known of their order; the report gives the reason.
     Unordered {
         /// Why they are not checked, as half a sentence.
@@ -239,7 +244,11 @@ impl Expectation {
         match &self.passes {
             Passes::Ordered(passes) => std::slice::from_ref(passes),
             Passes::Crossed(sets) => sets,
-            Passes::Clearing(_) | Passes::Flank(_) | Passes::Drilling(_) | Passes::Unordered { .. } => &[],
+            Passes::Clearing(_)
+            | Passes::Flank(_)
+            | Passes::Drilling(_)
+            | Passes::Covering { .. }
+            | Passes::Unordered { .. } => &[],
         }
     }
 
@@ -255,26 +264,20 @@ impl Expectation {
 
     /// How it clears stock, where it does.
     pub(crate) fn clearing(&self) -> Option<&Clearing> {
-        match &self.passes {
-            Passes::Clearing(clearing) => Some(clearing),
-            _ => None,
-        }
+        let Passes::Clearing(clearing) = &self.passes else { return None };
+        Some(clearing)
     }
 
     /// The ruled surfaces that it mills, where it does.
     pub(crate) fn flank(&self) -> Option<&FlankPasses> {
-        match &self.passes {
-            Passes::Flank(passes) => Some(passes),
-            _ => None,
-        }
+        let Passes::Flank(passes) = &self.passes else { return None };
+        Some(passes)
     }
 
     /// How it drills, where it does.
     pub(crate) fn drilling(&self) -> Option<&Drilling> {
-        match &self.passes {
-            Passes::Drilling(drilling) => Some(drilling),
-            _ => None,
-        }
+        let Passes::Drilling(drilling) = &self.passes else { return None };
+        Some(drilling)
     }
 
     /// The triangles that it is for.

@@ -12,8 +12,8 @@ use crate::report::Report;
 use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::{
-    clearing, corner_angles, corners, diagnosis, frame, holes, leaning, low_links, pair, passes, reach, sequence,
-    settings, tabs, travel, unreached, walls,
+    clearing, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair, passes, reach,
+    sequence, settings, tabs, travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.
@@ -39,6 +39,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     }
     faults.extend(passes::faults(program, &segments, &assignment, subject, limits, watch)?);
     faults.extend(holes::faults(&segments, subject, limits));
+    faults.extend(covered::faults(&segments, &assignment, subject, limits, watch)?);
     let cleared = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
     faults.extend(cleared.faults);
     let leaning = leaning::judged(program, &assignment, subject, limits, watch)?;

@@ -40,6 +40,7 @@ mod convex;
 mod corner_angles;
 mod corners;
 mod coverage;
+mod covered;
 mod diagnosis;
 mod engaged;
 mod engagement;

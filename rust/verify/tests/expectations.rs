@@ -214,6 +214,27 @@ fn passes_that_are_not_checked_are_reported_with_the_reason() {
 }
 
 #[test]
+fn passes_that_cover_faces_leave_no_more_than_the_scallop() {
+    let (part, tool) = (dome(), ball(2.0 * BALL));
+    // at the dome's foot the tool goes 1.34 mm from ring to ring, 1.18 mm over the face: 1.18^2 / 8 (1 / 4 + 1 / 30) = 0.049
+    let report = |scallop: f64, skipped: usize| {
+        let expected = expected(&part, Contact::Touch, [-100.0, 100.0], Passes::Covering { scallop });
+        judged(&part, &tool, &expected, &rings(&tool, |ring| f64::from(ring != skipped)))
+    };
+    let complete = report(0.05, RINGS);
+    assert!(complete.ok && complete.findings.is_empty(), "{:?}", complete.groups);
+    let missing = report(0.05, 10);
+    let finding = missing.findings.iter().find(|finding| finding.kind == FindingKind::Scallop).unwrap();
+    let [x, y, _] = finding.position.unwrap();
+    assert!(!missing.ok && finding.severity == Severity::Error, "{finding:?}");
+    assert!((x.hypot(y) - (INNERMOST + 10.0 * STEP)).abs() < STEP, "{finding:?}");
+    // rings that are complete, and too far apart at the foot only
+    let apart = report(0.03, RINGS);
+    assert!(apart.groups.iter().all(|group| group.kind == FindingKind::Scallop) && !apart.groups.is_empty());
+    assert!(apart.findings.iter().flat_map(|finding| finding.position).all(|[x, y, _]| x.hypot(y) > 8.0));
+}
+
+#[test]
 fn leads_and_links_need_not_touch_and_must_not_enter() {
     let (part, tool) = (dome(), ball(2.0 * BALL));
     let expected = expected(&part, Contact::Touch, [-100.0, 100.0], ordered(Arc::new(FromAxis), false));

@@ -52,6 +52,7 @@ kinds! {
         pocket::Pocket = "pocket",
         flank::Flank = "flank",
         drill::Drill = "drill",
+        constant_scallop::ConstantScallop = "constant-scallop",
     }
 }
 

@@ -85,6 +85,7 @@ fn every_kind_plans_and_says_what_it_planned() {
             Passes::Clearing(clearing) => assert!(clearing.angle > 0.0 && clearing.pitch.largest() > 0.0, "{name}"),
             Passes::Flank(flank) => assert!(flank.max_error > 0.0 && flank.faces.len() == 4, "{name}"),
             Passes::Drilling(drilling) => assert!(!drilling.holes.is_empty(), "{name}"),
+            Passes::Covering { scallop } => assert!(scallop > 0.0, "{name}"),
             Passes::Unordered { reason } => {
                 assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");
             }

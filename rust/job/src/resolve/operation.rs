@@ -106,6 +106,7 @@ pub fn descent_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &Opera
         | Passes::Clearing(_)
         | Passes::Flank(_)
         | Passes::Drilling(_)
+        | Passes::Covering { .. }
         | Passes::Unordered { .. } => None,
     }
 }

@@ -50,6 +50,11 @@ impl Grid {
         &self.lattice
     }
 
+    /// The contacts over all nodes, row by row; none where nothing is touched.
+    pub(super) fn contacts(&self) -> &[Option<Contact>] {
+        &self.contacts
+    }
+
     /// The tip over a node; none where nothing is touched.
     pub(super) fn tip(&self, node: Node) -> Option<f64> {
         self.contacts[self.lattice.node_number(node)].map(|contact| contact.tip)

@@ -1,6 +1,7 @@
 //! Strategies that follow the envelope: Z-levels, spirals and zig-zag.
 
 mod bounds;
+mod constant_scallop;
 mod contour;
 mod creases;
 mod descent;
@@ -38,6 +39,7 @@ mod waterlines;
 mod z_level;
 mod zig_zag;
 
+pub use constant_scallop::{constant_scallop, Contours};
 pub use floors::Floors;
 pub use grid::Grid;
 pub use layers::{layers, Layer};
