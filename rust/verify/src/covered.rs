@@ -38,7 +38,7 @@ pub(crate) fn faults(
         let is_own =
             |segment: &&Segment| segment.kind == SegmentKind::Lateral && assignment.is(segment.operation, operation);
         let contacts: Vec<&Segment> = segments.iter().filter(is_own).collect();
-        let sweeps = Sweeps::of(&contacts, subject);
+        let sweeps = Sweeps::of(&contacts, subject, operation.expectation.to_leave);
         let Some(body) = sweeps.body(operation.tool).filter(|_| !contacts.is_empty()) else { continue };
         let cover = Cover { subject, limits, operation, body, sweeps: &sweeps, contacts: &contacts, scallop };
         faults.extend(cover.faults(watch)?);

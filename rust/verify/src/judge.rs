@@ -37,9 +37,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     if let Some(frame) = &frame {
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
     }
-    faults.extend(passes::faults(program, &segments, &assignment, subject, limits, watch)?);
-    faults.extend(holes::faults(&segments, subject, limits));
-    faults.extend(covered::faults(&segments, &assignment, subject, limits, watch)?);
+    faults.extend(of_passes(program, &segments, &assignment, subject, limits, watch)?);
     let cleared = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
     faults.extend(cleared.faults);
     let leaning = leaning::judged(program, &assignment, subject, limits, watch)?;
@@ -85,6 +83,21 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         engagement: cleared.engagement,
         flanks: leaning.flanks,
     })
+}
+
+/// What is owed to the faces of the operations and is not there.
+fn of_passes(
+    program: &Program,
+    segments: &[Segment],
+    assignment: &Assignment,
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Vec<Fault>, Cancelled> {
+    let mut faults = passes::faults(program, segments, assignment, subject, limits, watch)?;
+    faults.extend(holes::faults(segments, subject, limits));
+    faults.extend(covered::faults(segments, assignment, subject, limits, watch)?);
+    Ok(faults)
 }
 
 /// Walls that are too steep, once for the part: every contact on them would repeat it.

@@ -185,9 +185,8 @@ impl Drill {
     fn check_named(&self, given: &PassContext<'_>, found: &[Hole], path: &str) -> Result<(), JobError> {
         let refused =
             |code, message: String, hint: &str| Err(JobError::document(code, format!("{path}.faces"), message, hint));
-        for face in given.faces.iter().filter(|face| !found.iter().any(|hole| hole.faces.contains(face))) {
-            let angle = leaning_hole(given.scene, *face).filter(|angle| *angle > LEANS);
-            if let Some(angle) = angle {
+        if let Some(face) = given.faces.iter().find(|face| !found.iter().any(|hole| hole.faces.contains(face))) {
+            if let Some(angle) = leaning_hole(given.scene, *face).filter(|angle| *angle > LEANS) {
                 let message = format!("Face{face} is a hole whose axis leans by {:.2} degrees", angle.to_degrees());
                 return refused("leaning-hole", message, "turn the part with setup.up, so that the hole is upright");
             }
@@ -283,10 +282,11 @@ impl OperationKind for Drill {
             smallest_feature: context.common.smallest_feature,
             top: context.heights.top.unwrap_or(context.scene.top),
             body: &body,
+            to_leave: [0.0; 2],
         };
         let holes = self.holes(&given);
         let skipped = holes_among(context.scene, &context.faces).len() - holes.len();
-        let (holes, across) = in_order(context, holes)?;
+        let (holes, across) = in_order(context, &holes)?;
         let mut drilled = self.drilled(context, &holes, DrillShape::of(&body))?;
         let through = holes.iter().filter(|hole| hole.floor.is_none()).count();
         drilled.facts.push(Fact::length("across", across, "across from hole to hole"));
@@ -375,7 +375,8 @@ impl Drill {
             Spindle::Off | Spindle::Free | Spindle::Rolling => None,
         };
         let kind = self.cycle.kind(spindle.map_or(SpindleDirection::Clockwise, |(_, direction)| direction));
-        let (mut moves, mut events, mut cycles) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut moves, mut cycles) = (Vec::new(), Vec::new());
+        let mut events: Vec<(usize, EventKind)> = Vec::new();
         let clearance = context.scene.clearance;
         let mut depth = 0.0;
         for hole in holes {
@@ -410,7 +411,7 @@ impl Drill {
             for step in steps {
                 match step {
                     CycleStep::Move(MoveKind::Rapid, tip) => {
-                        moves.push(Move::rapid(tip).of_operation(context.operation))
+                        moves.push(Move::rapid(tip).of_operation(context.operation));
                     }
                     CycleStep::Move(MoveKind::Feed, tip) => {
                         moves.push(Move::feed(tip, cycle.feed).of_operation(context.operation));
@@ -425,13 +426,12 @@ impl Drill {
             Fact::count(holes.len(), "hole", "holes"),
             Fact::length("drilled", depth, "drilled, all holes together"),
         ];
-        let events: Vec<(usize, EventKind)> = events;
         Ok(Planned { moves, events, cycles, words: String::new(), note: String::new(), facts, surface: None })
     }
 }
 
 /// The holes in an order with short ways across, and their length, mm.
-fn in_order(context: &Context<'_>, holes: Vec<Hole>) -> Result<(Vec<Hole>, f64), JobError> {
+fn in_order(context: &Context<'_>, holes: &[Hole]) -> Result<(Vec<Hole>, f64), JobError> {
     let pass = |(number, hole): (usize, &Hole)| {
         let tip = Vector::new(hole.at[0], hole.at[1], context.scene.clearance);
         let point = PathPoint { tip, normal: Vector::z(), selected: true, triangle: number as u32 };
@@ -459,6 +459,7 @@ fn diameter_tolerance() -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // sums of the holes' short numbers are exact
 mod tests {
     use super::*;
 

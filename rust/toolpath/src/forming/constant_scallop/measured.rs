@@ -53,8 +53,8 @@ pub fn factors(
     watch.begin("ridges", positions.len());
     let contacts = surface.envelope().contacts(&positions, watch)?;
     let tip_above = surface.envelope().tip_on(0.0);
-    let factor = |(((node, _), at), contacts): ((&(usize, [f64; 2]), &[[f64; 2]]), &[Option<_>])| {
-        let here = net.stations[*node]?;
+    let factor = |node: usize, at: &[[f64; 2]], contacts: &[Option<_>]| {
+        let here = net.stations[node]?;
         let passes = at.iter().zip(contacts).filter_map(|(at, contact)| Station::of(surface, *at, contact.as_ref()?));
         let passes = passes.filter(|pass| net.spacing.between(&here, pass) <= NEAR);
         let left = passes.map(|pass| {
@@ -63,9 +63,10 @@ pub fn factors(
         });
         let (sum, count) = left.fold((0.0, 0), |(sum, count), root| (sum + root, count + 1));
         // of a parabola the root grows evenly: the mean is that in the midst, wherever the node is
-        (count > 0).then(|| (*node, (sum / f64::from(count) / height.sqrt()).clamp(FACTORS[0], FACTORS[1])))
+        (count > 0).then(|| (node, (sum / f64::from(count) / height.sqrt()).clamp(FACTORS[0], FACTORS[1])))
     };
-    let found = steps.par_iter().zip(positions.par_chunks(2)).zip(contacts.par_chunks(2)).filter_map(factor);
+    let sides = positions.par_chunks(2).zip(contacts.par_chunks(2));
+    let found = steps.par_iter().zip(sides).filter_map(|((node, _), (at, contacts))| factor(*node, at, contacts));
     let mut factors = vec![None; net.stations.len()];
     for (node, factor) in found.collect::<Vec<_>>() {
         factors[node] = Some(factor);
