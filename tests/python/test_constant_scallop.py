@@ -1,4 +1,4 @@
-"""Contours of equal scallop: what the posted text leaves, measured at points of its own, and what is found where a pass is gone."""
+"""Contours of equal scallop: what the posted text leaves, measured at points of its own; what is found where a pass is gone."""
 
 from __future__ import annotations
 
@@ -47,7 +47,10 @@ def verified(asked: sc.Job) -> sc.Report:
 
 def points_touched(part: str, profile: dict[str, Any]) -> FloatArray:
     """Points spread at random over what looks up, where the tool that touches them is not in the part elsewhere."""
-    shape, tool = sc.Part.read(FIXTURES / f"{part}.step", tolerance=TESSELLATION), sc.Tool.from_dict({"profile": profile})
+    shape, tool = (
+        sc.Part.read(FIXTURES / f"{part}.step", tolerance=TESSELLATION),
+        sc.Tool.from_dict({"profile": profile}),
+    )
     corners = np.asarray(shape.arrays.vertices)[np.asarray(shape.arrays.triangles)]
     normals = np.asarray(shape.arrays.normals)
     areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)

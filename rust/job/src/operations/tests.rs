@@ -78,7 +78,14 @@ fn every_kind_plans_and_says_what_it_planned() {
         let tools = crate::resolve::tools(&job).unwrap();
         let body = tools.values().next().unwrap().0.body(None);
         let faces = [3, 4, 5, 6];
-        let given = PassContext { scene: &scene, faces: &faces, smallest_feature: 1.0, top: 0.0, body: &body, to_leave: [0.0; 2] };
+        let given = PassContext {
+            scene: &scene,
+            faces: &faces,
+            smallest_feature: 1.0,
+            top: 0.0,
+            body: &body,
+            to_leave: [0.0; 2],
+        };
         match job.operations[0].kind().passes(&given) {
             Passes::Ordered(passes) => assert!(passes.pitch.largest() > 0.0, "{name}"),
             Passes::Crossed(sets) => assert!(sets.iter().all(|set| set.pitch.largest() > 0.0), "{name}"),

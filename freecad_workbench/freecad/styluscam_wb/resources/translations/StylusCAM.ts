@@ -46,6 +46,11 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>By how much holes may be wider than the tool, mm: for core holes of threads, holes that are reamed or bored afterwards.
+Range: 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>By how much that direction turns from level to level, degrees: 137.5 spreads the beginnings evenly.
 Range: -360 to 360 deg
 0 or empty: not stated</source>
@@ -140,6 +145,17 @@ Range: 0.05 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How deep blind holes are drilled. Through holes are drilled to their full diameter.
+tip: The tool's tip reaches the floor: of a flat floor its point leaves a cone.
+full-diameter: The tool's full diameter reaches the end of the wall: for floors that are modelled as cones.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far above a hole's top the tool comes down at rapid, mm.
+Range: 0.1 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -158,6 +174,11 @@ Range: 0 to 1000 mm</source>
     <message>
         <source>How far the tool is lifted off the floor on links at depth, mm.
 Range: 0 to 10 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far the tool's full diameter goes on below through holes, mm.
+Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -317,7 +338,10 @@ the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
 Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
-is a cylinder or a cone, with a flat end or a round one.</source>
+is a cylinder or a cone, with a flat end or a round one.
+drill: Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
+cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.
+constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -450,6 +474,12 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What is done at each hole.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What is done to it.
 spif: Single-point incremental forming: a sheet, no die.
 dsif: Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
@@ -479,19 +509,16 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
-that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
-that an operation leaves out follow from it.
-0 or empty: not stated</source>
         <source>What the part is cut from; its box when left out.
 As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the posted path is made of.
-lines: Lines.
-arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
+        <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
+that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
+that an operation leaves out follow from it.
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -745,7 +772,16 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Breakthrough</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Bull nose</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>By how much holes may be wider than the tool, mm: for core holes of threads, holes that are reamed or bored afterwards.
+Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -833,7 +869,15 @@ Stock is that of the set-up, the part's box where it states none, or what the op
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Constant scallop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Contact track</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Contours over the surface, from its border inwards, between which the same scallop stands everywhere.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -869,11 +913,19 @@ Stock is that of the set-up, the part's box where it states none, or what the op
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Cycle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Cycloid</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Cylindrical</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Depth</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -912,6 +964,10 @@ Range: above 0 to 1000 mm
     </message>
     <message>
         <source>Diameter of the tip, mm.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter tolerance</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -983,6 +1039,15 @@ other face of the sheet, block by block; its machine is in `[machines.support]`.
     </message>
     <message>
         <source>Draws where the tool touches the model along the job's paths; again to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Drill</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
+cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1201,6 +1266,17 @@ Range: 0.05 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How deep blind holes are drilled. Through holes are drilled to their full diameter.
+tip: The tool's tip reaches the floor: of a flat floor its point leaves a cone.
+full-diameter: The tool's full diameter reaches the end of the wall: for floors that are modelled as cones.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far above a hole's top the tool comes down at rapid, mm.
+Range: 0.1 to 1000 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
@@ -1223,6 +1299,11 @@ Range: 0 to 1000 mm</source>
     <message>
         <source>How far the tool is lifted off the floor on links at depth, mm.
 Range: 0 to 10 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far the tool's full diameter goes on below through holes, mm.
+Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1601,7 +1682,10 @@ the feed per revolution and the spindle's speed.
 pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
 Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
-is a cylinder or a cone, with a flat end or a round one.</source>
+is a cylinder or a cone, with a flat end or a round one.
+drill: Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
+cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.
+constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1789,6 +1873,10 @@ Range: above 0 to 100 mm
     </message>
     <message>
         <source>Result</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Retract height</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2205,6 +2293,14 @@ right: To the right.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The tool's full diameter reaches the end of the wall: for floors that are modelled as cones.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The tool's tip reaches the floor: of a flat floor its point leaves a cone.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>They end where the contact reaches the edge.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2357,6 +2453,12 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What is done at each hole.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What is done to it.
 spif: Single-point incremental forming: a sheet, no die.
 dsif: Double-sided incremental forming: a sheet between two tools. The one below follows the contacts of the one above, on the
@@ -2394,19 +2496,16 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
-that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
-that an operation leaves out follow from it.
-0 or empty: not stated</source>
         <source>What the part is cut from; its box when left out.
 As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the posted path is made of.
-lines: Lines.
-arcs: Arcs and lines, of which fewer are needed; lines where the machine has no arc for it.</source>
+        <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
+that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
+that an operation leaves out follow from it.
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2563,6 +2662,14 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>constant-scallop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>contours</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>conventional</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2575,7 +2682,15 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>distances</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>down at a feed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>drill</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2628,6 +2743,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>from the tip up</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>full-diameter</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2835,6 +2954,10 @@ mid: The middle of the sheet.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>ridges</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>right</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2868,6 +2991,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>shortening links</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>sides</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2960,6 +3087,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>three-points</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>tip</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

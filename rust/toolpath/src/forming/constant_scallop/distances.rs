@@ -5,7 +5,8 @@
 //! along which that of its ends is interpolated (the update of R. Kimmel, J. A. Sethian, "Computing geodesic paths on manifolds",
 //! PNAS 95, 1998). Sides that are stretched make obtuse triangles, over which fronts do not come in the order of their
 //! distances: a node whose distance falls is asked again until none does (F. Bornemann, C. Rasch, "Finite-element
-//! discretization of static Hamilton-Jacobi equations based on a local variational principle", Comput. Vis. Sci. 9, 2006).
+//! discretization of static Hamilton-Jacobi equations based on a local variational principle", Computing and Visualization in
+//! Science 9, 2006).
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
