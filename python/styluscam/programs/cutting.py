@@ -85,17 +85,12 @@ def cutting_data(
     """
     made = Tool.of(tool)
     known = made.to_dict()
-    cutter = known.get("cutter_material") if cutter_material is None else cutter_material
-    if cutter is None:
-        hint = 'write cutter_material = "carbide" or "hss"'
-        message = "the tool's file does not state what it is made of"
-        raise JobError(message, code="missing", where="cutter_material", hint=hint)
     limits = {} if machine is None else limits_of(Machine.of(machine))
     own = {"min_rpm": min_rpm, "max_rpm": max_rpm, "max_feed": max_feed}
     request = {
         "material": word_of(material, "material", "the name of a material", JobError),
         "work": word_of(work, "work", "the name of a work", JobError),
-        "cutter_material": cutter,
+        "cutter_material": _cutter_of(cutter_material or known.get("cutter_material")),
         "flutes": known.get("flutes") if flutes is None else flutes,
         "pitch": pitch,
         "engagement": {"width": width, "angle_deg": angle_deg, "depth": depth},
@@ -104,6 +99,18 @@ def cutting_data(
     asked = json_of(request, "request", JobError)
     text = None if table is None else table_text(table)
     return CuttingData(**json.loads(_engine.cutting_data(made._engine, asked, text)))
+
+
+def _cutter_of(stated: str | None) -> str:
+    """What a tool is made of.
+
+    Raises:
+        JobError: it is not stated.
+    """
+    if stated is not None:
+        return stated
+    message, hint = "the tool's file does not state what it is made of", 'write cutter_material = "carbide" or "hss"'
+    raise JobError(message, code="missing", where="cutter_material", hint=hint)
 
 
 def limits_of(machine: Machine) -> dict[str, float]:
