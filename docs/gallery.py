@@ -122,6 +122,23 @@ EXAMPLES = (
         more={"tools": {"stylus": {"profile": {"kind": "flat", "diameter": 20.0}}}},
     ),
     Example(
+        "drill",
+        "Drilled holes",
+        "`drill`: round upright holes of the tool's diameter, found in the part, by canned cycles. Milling.",
+        "drilled",
+        {"kind": "drill", "cycle": {"kind": "peck", "peck": 3.0}},
+        process={"kind": "milling"},
+        more={"tools": {"stylus": {"profile": {"kind": "v", "tip_diameter": 0.0, "angle_deg": 118.0, "diameter": 5.0}}}},
+    ),
+    Example(
+        "constant-scallop",
+        "Equal scallop everywhere",
+        "`constant-scallop`: contours from the border inwards, as far apart as the scallop allows on every slope. Milling.",
+        "vwaf",
+        {"kind": "constant-scallop", "scallop": 0.2},
+        process={"kind": "milling"},
+    ),
+    Example(
         "flank",
         "Flank milling",
         "`flank`: the side of a leaning tool along the ruled sides of a twisted blade; two rotary axes. Milling.",

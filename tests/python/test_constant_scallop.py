@@ -46,7 +46,7 @@ def verified(asked: sc.Job) -> sc.Report:
 
 
 def points_touched(part: str, profile: dict[str, Any]) -> FloatArray:
-    """Points spread at random over what looks up, where the tool that touches them is not in the part elsewhere."""
+    """Points spread at random over what faces up, where the tool that touches them is not in the part elsewhere."""
     shape, tool = (
         sc.Part.read(FIXTURES / f"{part}.step", tolerance=TESSELLATION),
         sc.Tool.from_dict({"profile": profile}),

@@ -118,8 +118,8 @@ def test_a_counterbored_hole_begins_at_its_own_top() -> None:
     ("before", "after", "finding"),
     [
         ("X8 Y8\n", "", "missing-hole"),
-        ("X8 Y8\n", "X8.02 Y8\n", "stray-hole"),
-        ("X20 Y20 Z4 ", "X20 Y20 Z3.9 ", "stray-hole"),
+        ("X8 Y8\n", "X8.02 Y8\n", "extra-hole"),
+        ("X20 Y20 Z4 ", "X20 Y20 Z3.9 ", "extra-hole"),
         ("X20 Y20 Z4 ", "X20 Y20 Z4.1 ", "missing-hole"),
         ("X20 Y20 Z4 R13 Q3", "X20 Y20 Z4 R13 Q4", "peck"),
         ("R13 Q3", "R11.9 Q3", "rapid-plunge"),

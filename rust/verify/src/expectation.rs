@@ -127,6 +127,8 @@ pub struct Clearing {
     pub pitch: Pitch,
     /// What is to stay on walls, across them in plan, and on what lies under the tool, mm.
     pub left: [f64; 2],
+    /// How far the path may be off the part, mm: levels lie so much higher at most, and walls are kept away from.
+    pub tolerance: f64,
     /// A hole through the stock: its axis in plan and its radius, mm.
     pub hole: Option<([f64; 2], f64)>,
     /// Whether what the operations before it sweep is no stock any more.

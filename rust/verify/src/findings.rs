@@ -60,7 +60,7 @@ pub enum FindingKind {
     /// A hole is not drilled down to its depth.
     MissingHole,
     /// A drill goes down where no hole is, or deeper than one is.
-    StrayHole,
+    ExtraHole,
     /// A drill goes deeper at once than a peck.
     Peck,
     /// A tool that clears stock engages more of it at once than it may.
@@ -211,7 +211,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::MissingLevel, "missing level"),
         (Kind::MissingRow, "missing row"),
         (Kind::MissingHole, "missing hole"),
-        (Kind::StrayHole, "drilled where no hole is"),
+        (Kind::ExtraHole, "drilled where no hole is"),
         (Kind::Peck, "peck deeper than asked"),
         (Kind::Engagement, "engagement angle too large"),
         (Kind::Uncleared, "stock not cleared"),

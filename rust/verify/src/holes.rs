@@ -3,6 +3,8 @@
 //!
 //! A drill as wide as its hole touches the wall all around. Triangles of a hole's wall are chords of it and lie outside of the
 //! material, so a tool on the axis is measured against the hole's own radius, and against triangles less what they are off.
+//!
+//! The method: `docs/concepts/drilling.md`.
 
 use crate::expectation::{DrilledHole, Drilling};
 use crate::faults::{self, Fault};

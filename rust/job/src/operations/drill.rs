@@ -279,6 +279,7 @@ impl OperationKind for Drill {
         let given = PassContext {
             scene: context.scene,
             faces: &context.faces,
+            tolerance: context.common.tolerance,
             smallest_feature: context.common.smallest_feature,
             top: context.heights.top.unwrap_or(context.scene.top),
             body: &body,

@@ -121,6 +121,8 @@ pub struct PassContext<'a> {
     pub scene: &'a Scene,
     /// The faces of the operation.
     pub faces: &'a [u32],
+    /// How far passes may be off the part on either side, mm.
+    pub tolerance: f64,
     /// No pass is missed that holds a disc of this diameter, mm.
     pub smallest_feature: f64,
     /// Height from which levels count: the operation's, or the sheet's (the part's) highest point, work coordinates, mm.

@@ -304,6 +304,7 @@ impl OperationKind for Pocket {
             top: given.top,
             pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
             left,
+            tolerance: given.tolerance,
             hole: self.entry_hole.map(|hole| ([hole.x, hole.y], 0.5 * hole.diameter)),
             rest: self.rest_machining,
             last_layer: Some(finished[1]).filter(|taken| *taken > 0.0).unwrap_or(f64::INFINITY),

@@ -81,6 +81,7 @@ fn every_kind_plans_and_says_what_it_planned() {
         let given = PassContext {
             scene: &scene,
             faces: &faces,
+            tolerance: 0.01,
             smallest_feature: 1.0,
             top: 0.0,
             body: &body,

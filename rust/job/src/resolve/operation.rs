@@ -91,6 +91,7 @@ fn with_passes<T>(
     asked(&PassContext {
         scene,
         faces,
+        tolerance: section.common.tolerance,
         smallest_feature: section.common.smallest_feature,
         top: heights_of(job, scene, section).top.unwrap_or(scene.top),
         body: &section.touching(tool).body(scene.sheet.as_ref()),

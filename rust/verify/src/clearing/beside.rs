@@ -15,10 +15,10 @@ use crate::clearance::Prober;
 use crate::engagement::Cells;
 use crate::findings::{Finding, FindingKind, Severity};
 use crate::subject::Subject;
-use crate::tolerances::ROUGH;
+use crate::tolerances::{ROUGH, SLACK};
 
-/// What may be left beside a wall besides what is asked for, mm: the path's tolerance, and what planning keeps from walls.
-const ALLOWED: f64 = 3.0 * ROUGH;
+/// What may be left beside a wall besides what is asked for: so many times the path's tolerance, by which planning keeps from walls.
+const ALLOWED: f64 = 2.0;
 /// Positions are found to this, mm.
 const FINE: f64 = 2e-3;
 /// The second position lies so far aside, as a share of the grid's spacing.
@@ -39,7 +39,8 @@ pub(super) fn left(
     let prober = Prober { body, mesh: subject.mesh, bvh: subject.bvh };
     let below = below(subject);
     let is_free = |at: [f64; 2]| is_free(&prober, layer, below, at);
-    let allowed = ALLOWED + layer.chip + 2.0 * subject.deviation_inward;
+    let tolerance = layer.clearing.tolerance;
+    let allowed = ROUGH + ALLOWED * tolerance + layer.chip + 2.0 * subject.deviation_inward;
     let passed = Passed::new(swept, layer.radius);
     let (mut count, mut worst) = (0, (allowed, [0.0; 2]));
     for node in (0..free.len()).filter(|node| free[*node] && grid.is_looked_at(*node)) {
@@ -49,6 +50,9 @@ pub(super) fn left(
             let wanted = along(layer.clearing.left[0]);
             // where the tool has not been near to at all, `rest` looks
             let Some(beside) = passed.distance(wanted).filter(|beside| *beside > allowed) else { continue };
+            if beside <= allowed + tolerance * lean(&prober, layer, at) {
+                continue;
+            }
             let [across, _] = layer.clearing.left;
             let is_reached = grid.nearest(along(across + 2.0 * grid.spacing)).is_some_and(|node| reached[node]);
             let is_in_stock = layer.is_stock(along(across + allowed - layer.radius));
@@ -75,6 +79,14 @@ pub(super) fn left(
         let position = Some([x, y, layer.floor]);
         Finding { position, value_mm: Some(thick), value: Some(thick), limit: Some(allowed), ..finding }
     })
+}
+
+/// How far a wall leans where the tool touches it on the layer: across, for each mm in height. Of a fillet near its end in a floor it is
+/// much; where the tool is nearest to a level floor it is none, for floors are no walls.
+fn lean(prober: &Prober<'_>, layer: &Layer<'_>, [x, y]: [f64; 2]) -> f64 {
+    let position = prober.body.position([x, y, layer.floor - layer.clearing.left[1]]);
+    let wall = prober.at(position, None).filter(|touch| touch.away.z > SLACK - 1.0);
+    wall.map_or(0.0, |touch| touch.away.z.abs() / touch.away.xy().norm())
 }
 
 /// Where between a free position and one that is not the tool touches, and the direction off the wall there.

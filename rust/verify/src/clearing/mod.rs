@@ -114,7 +114,7 @@ fn missing_levels(
     floors.dedup_by(|a, b| (*a - *b).abs() <= SAME_LEVEL);
     let left = clearing.left[1];
     let over = floors.into_iter().filter(|floor| floor + left < clearing.top - ROUGH).map(|floor| {
-        let level = all.iter().position(|z| (-SAME_LEVEL..=2.0 * ROUGH).contains(&(z - floor - left)));
+        let level = all.iter().position(|z| (-SAME_LEVEL..=ROUGH + clearing.tolerance).contains(&(z - floor - left)));
         let Some((level, above)) = level.and_then(|i| Some((all.get(i)?, all.get(i.checked_sub(1)?)?))) else {
             let on = if left > 0.0 { format!("{left:.3} mm over") } else { "on".to_owned() };
             let message = format!(

@@ -14,14 +14,14 @@ pub(crate) static MISSING_HOLE: FaultKind = FaultKind::on_part(
     "post the whole operation: a hole, or the end of one, is missing",
 );
 pub(crate) static NO_HOLE_HERE: FaultKind = FaultKind::on_part(
-    FindingKind::StrayHole,
+    FindingKind::ExtraHole,
     |fault| {
         format!("a feed of a drill goes to where the operation has no hole, {:.3} mm from the nearest", fault.value())
     },
     "correct X and Y, or post the operation again",
 );
 pub(crate) static TOO_DEEP: FaultKind = FaultKind::on_part(
-    FindingKind::StrayHole,
+    FindingKind::ExtraHole,
     |fault| format!("the drill goes down to Z{:.3}, and its hole ends at Z{:.3}", fault.value(), fault.limit()),
     "correct Z, or post the operation again",
 );

@@ -6,6 +6,7 @@
 mod borders;
 mod chains;
 mod creases;
+mod crossing;
 mod distances;
 mod level_lines;
 mod measured;

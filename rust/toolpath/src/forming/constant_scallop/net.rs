@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use styluscam_motion::{Cancelled, Watch};
 
-use super::creases::{self, Crossing};
+use super::crossing::{crossing, Crossing};
 use super::stations::{Spacing, Station};
 use crate::lattice::Node;
 use crate::{Lattice, Surface};
@@ -83,7 +83,7 @@ impl Net {
     /// The length of a side, and where it crosses a crease.
     fn side(&self, surface: &Surface<'_>, side: [usize; 2]) -> (f64, Option<Crossing>) {
         let [Some(a), Some(b)] = side.map(|node| self.stations[node]) else { return (f64::INFINITY, None) };
-        match creases::crossing(surface, side, [&a, &b]) {
+        match crossing(surface, side, [&a, &b]) {
             Some(crossing) if crossing.is_jump() => (f64::INFINITY, Some(crossing)),
             Some(crossing) => (self.spacing.over_crease(&a, &b), Some(crossing)),
             None => (self.spacing.between(&a, &b), None),
