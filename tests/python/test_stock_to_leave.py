@@ -19,6 +19,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "z-level": {"step": {"height": 1.0}},
     "zig-zag": {"stepover": 1.0},
     "spiral": {"step": {"height": 1.0}},
+    "constant-scallop": {"scallop": 0.05},
 }
 
 
