@@ -107,3 +107,14 @@ def test_a_scallop_is_stated() -> None:
     document["operations"][0]["scallop"] = 0.0
     with pytest.raises(sc.JobError, match="scallop"):
         sc.Job.from_dict(document)
+
+
+def test_a_contour_that_is_gone_from_the_text_is_found() -> None:
+    asked = job("matrix/pyramid", BALL, 0.05)
+    text = next(iter(sc.post(sc.plan(asked), asked.machine()).files.values()))
+    lines = text.splitlines()
+    assert not sc.verify(text, asked).findings
+    for first in range(300, 3000, 900):  # contours follow each other in one run
+        without = "\n".join(lines[:first] + lines[first + 100 :]) + "\n"
+        errors = [finding for finding in sc.verify(without, asked).findings if finding.severity == "error"]
+        assert "scallop" in {finding.kind for finding in errors}, first

@@ -1,7 +1,7 @@
 //! Contours over the surface between which the same scallop stands everywhere.
 //!
 //! Passes are lines of equal distance from the border of the selected faces, in a metric in which two of them that leave the
-//! scallop are one apart. They are found over a lattice in plan, and followed exactly. See docs/concepts/scallops.md.
+//! scallop are one apart. They are found over a lattice in plan, and followed exactly. See docs/concepts/constant-scallop.md.
 
 mod borders;
 mod chains;

@@ -58,7 +58,7 @@ fn smooth_normal(surface: &Surface<'_>, triangle: usize, point: Vector, normal: 
 /// Two positions of the tool that are d apart leave d' (T - S) d / 8 between them, T being the curvature of the tool at its
 /// contact and S that of the surface on which its tip lies: so T - S over eight scallops is a metric in which passes lie one
 /// apart. T is that of the tool's chord at the scallop's height, and S follows from how the normal turns from one position to the
-/// other. Derived in docs/concepts/scallops.md.
+/// other. Derived in docs/concepts/constant-scallop.md.
 #[derive(Clone, Debug)]
 pub struct Spacing {
     /// By slope: the inverse square of the chord up the wall and level, 1/mm^2.
