@@ -128,7 +128,9 @@ EXAMPLES = (
         "drilled",
         {"kind": "drill", "cycle": {"kind": "peck", "peck": 3.0}},
         process={"kind": "milling"},
-        more={"tools": {"stylus": {"profile": {"kind": "v", "tip_diameter": 0.0, "angle_deg": 118.0, "diameter": 5.0}}}},
+        more={
+            "tools": {"stylus": {"profile": {"kind": "v", "tip_diameter": 0.0, "angle_deg": 118.0, "diameter": 5.0}}}
+        },
     ),
     Example(
         "constant-scallop",

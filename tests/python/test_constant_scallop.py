@@ -118,3 +118,23 @@ def test_a_contour_that_is_gone_from_the_text_is_found() -> None:
         without = "\n".join(lines[:first] + lines[first + 100 :]) + "\n"
         errors = [finding for finding in sc.verify(without, asked).findings if finding.severity == "error"]
         assert "scallop" in {finding.kind for finding in errors}, first
+
+
+def split(shallow: float, steep: float, *, scallop: float = 0.05) -> sc.Job:
+    """Contours on slopes up to ``shallow``, levels on those from ``steep`` on, degrees."""
+    document = job("matrix/frustum_male", BALL, scallop).to_dict()
+    contours = document["operations"][0]
+    levels = {key: value for key, value in contours.items() if key not in ("id", "scallop")}
+    contours["boundary"] = {"slope_deg": [0.0, shallow]}
+    levels |= {"kind": "z-level", "step": {"scallop": scallop}, "boundary": {"slope_deg": [steep, 90.0]}}
+    document["operations"] = [levels, contours]
+    return sc.Job.from_dict(document)
+
+
+def test_slopes_that_overlap_leave_nothing_between_levels_and_contours() -> None:
+    points = points_touched("matrix/frustum_male", BALL)
+    report = verified(split(32.0, 28.0))
+    assert report.ok and not report.findings, [finding.message for finding in report.findings]
+    assert report.left(points).max() <= 1.3 * 0.05 + TOLERANCE
+    # with slopes that neither takes a strip is left
+    assert verified(split(26.0, 34.0)).left(points).max() > 2.0 * 0.05
