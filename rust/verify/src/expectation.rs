@@ -133,6 +133,10 @@ pub struct Clearing {
     pub hole: Option<([f64; 2], f64)>,
     /// Whether what the operations before it sweep is no stock any more.
     pub rest: bool,
+    /// Whether all stock that the tool reaches is to be cleared, and not only that over the selected triangles.
+    pub all: bool,
+    /// The height to which it is to be cleared, where one is stated, mm.
+    pub lowest: Option<f64>,
     /// The most that the last layer over a floor is to take, mm; infinite where it is a layer like the others.
     pub last_layer: f64,
 }

@@ -282,6 +282,7 @@ impl OperationKind for Drill {
             tolerance: context.common.tolerance,
             smallest_feature: context.common.smallest_feature,
             top: context.heights.top.unwrap_or(context.scene.top),
+            bottom: context.common.z_bottom,
             body: &body,
             to_leave: [0.0; 2],
         };

@@ -127,6 +127,8 @@ pub struct PassContext<'a> {
     pub smallest_feature: f64,
     /// Height from which levels count: the operation's, or the sheet's (the part's) highest point, work coordinates, mm.
     pub top: f64,
+    /// The lowest tip, where the operation states it, work coordinates, mm.
+    pub bottom: Option<f64>,
     /// The tool, with the sheet that it touches.
     pub body: &'a ToolBody,
     /// Stock that stays on walls, and under the tool, mm.

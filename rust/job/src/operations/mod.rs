@@ -15,6 +15,7 @@ use crate::MAIN_CHANNEL;
 
 mod before;
 pub(crate) mod budget;
+mod clears;
 mod context;
 mod corners;
 mod effort;

@@ -14,6 +14,7 @@ use styluscam_toolpath::{Heights, Pass, PlanError, Segment, Sense, Surface};
 use styluscam_verify::{Clearing, Contact, Passes};
 
 use super::budget;
+use super::clears::Clears;
 use super::corners;
 use super::entry::{Entry, EntryHole};
 use super::facts::counted;
@@ -46,7 +47,7 @@ const CORNERS: f64 = 2.5 * std::f64::consts::PI / 180.0;
 /// The least bound that is planned, rad (10 degrees).
 const LEAST: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
-/// Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
+/// Clears the stock over the selected faces, or all of it, level by level, with an engagement angle that stays below a bound all along the path.
 /// Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -54,6 +55,10 @@ pub struct Pocket {
     /// Distance between levels.
     #[schemars(extend("x-example" = "{ height = 2.0 }"))]
     pub step: Step,
+    /// Which stock is cleared on each level: that over the selected faces, or all that the tool reaches, around the part too (roughing). Levels
+    /// go down to the lowest selected face that the tool reaches; of all stock to z_bottom, where that is stated.
+    #[serde(default)]
+    pub clears: Clears,
     /// The engagement angle that the path keeps to, degrees: of the arc along which the tool's rim is in the material.
     #[serde(default = "engagement")]
     #[schemars(extend("x-unit" = "deg", "minimum" = 10.0, "maximum" = 90.0))]
@@ -307,6 +312,8 @@ impl OperationKind for Pocket {
             tolerance: given.tolerance,
             hole: self.entry_hole.map(|hole| ([hole.x, hole.y], 0.5 * hole.diameter)),
             rest: self.rest_machining,
+            all: self.clears.is_all(),
+            lowest: given.bottom.filter(|_| self.clears.is_all()),
             last_layer: Some(finished[1]).filter(|taken| *taken > 0.0).unwrap_or(f64::INFINITY),
         })
     }
@@ -338,11 +345,13 @@ impl Pocket {
         let whole = Surface::whole(surface.envelope());
         let grid = Grid::sample(&whole, context.node_spacing(), watch)?.ok_or_else(nothing)?;
         let resolution = context.machine.resolution_mm();
-        let (reachable, _) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
+        let (touched, _) = selected_range(surface, &grid, resolution, watch)?.ok_or_else(nothing)?;
+        let stated = context.common.z_bottom.filter(|_| self.clears.is_all());
         // the part with what stays under the tool is the part, raised
         let [[_, raised], [_, finished]] = self.left_and_finished(context.common.stock_to_leave());
         let top = context.heights.top.unwrap_or(scene.top) - raised;
         let bottom = context.heights.bottom - raised;
+        let reachable = stated.map_or(touched, |z| z - raised);
         let body = context.tool.body(None);
         let keys = LevelKeys { step: &self.step, limits: StepLimits::default(), at_flats: true, of_turns: false };
         let steps = levels::steps_of(&keys, (top, &body), deviation, surface, watch)?;
@@ -373,7 +382,7 @@ impl Pocket {
         Ok(true)
     }
 
-    /// Clears the areas of a level that are over selected faces.
+    /// Clears the areas of a level, or those of them that are over selected faces.
     fn clear(
         &self,
         context: &Context<'_>,
@@ -392,7 +401,8 @@ impl Pocket {
         // in programs that lean arcs become lines, and their chords turn the heading
         let arcs = common.fit == Fit::Arcs && machine.arc.is_some() && machine.rotary.is_none();
         let before = if self.rest_machining { context.before.cleared([top, floor]) } else { Vec::new() };
-        for area in CentreArea::parted(&all).iter().filter(|area| is_over_selected(surface, area, floor, radius)) {
+        let is_cleared = |area: &&CentreArea| self.clears.is_all() || is_over_selected(surface, area, floor, radius);
+        for area in CentreArea::parted(&all).iter().filter(is_cleared) {
             let asked = Asked {
                 shape: Shape::Centres { outlines: &area.outlines, stock: &stock },
                 radius,

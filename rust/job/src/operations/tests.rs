@@ -84,6 +84,7 @@ fn every_kind_plans_and_says_what_it_planned() {
             tolerance: 0.01,
             smallest_feature: 1.0,
             top: 0.0,
+            bottom: None,
             body: &body,
             to_leave: [0.0; 2],
         };

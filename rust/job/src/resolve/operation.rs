@@ -94,6 +94,7 @@ fn with_passes<T>(
         tolerance: section.common.tolerance,
         smallest_feature: section.common.smallest_feature,
         top: heights_of(job, scene, section).top.unwrap_or(scene.top),
+        bottom: section.common.z_bottom,
         body: &section.touching(tool).body(scene.sheet.as_ref()),
         to_leave: section.common.stock_to_leave(),
     })

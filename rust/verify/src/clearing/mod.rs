@@ -132,5 +132,16 @@ fn missing_levels(
         })
     });
     let over: Vec<Finding> = over.flatten().collect();
-    wide.chain(over).collect()
+    wide.chain(over).chain(above_lowest(id, clearing, heights)).collect()
+}
+
+/// That the last level lies higher than the height to which all stock is to be cleared.
+fn above_lowest(id: &str, clearing: &Clearing, heights: &[f64]) -> Option<Finding> {
+    let (lowest, last) = (clearing.lowest?, heights.last().copied().unwrap_or(clearing.top));
+    (last > lowest + ROUGH + clearing.tolerance).then(|| {
+        let message = format!(
+            "operation {id:?}: the last level lies at Z{last:.3}, and stock is to be cleared down to Z{lowest:.3}; post the job again"
+        );
+        Finding::of_all(FindingKind::MissingLevel, Severity::Error, message)
+    })
 }

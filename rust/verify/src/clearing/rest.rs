@@ -1,8 +1,8 @@
 //! What is left of a layer that the tool could have cleared.
 //!
 //! On a grid of positions the tool is found free of the part, or not, at the layer's height. Free positions around which a disc of
-//! the smallest path's radius is free, and that hang together with one over a selected face, are where the tool is to have been: all stock
-//! within its radius of them is to be swept. The grid itself never asks for more than the tool can do: its positions are exact.
+//! the smallest path's radius is free, and that hang together with one over a selected face (all of them where all stock is to be cleared), are where
+//! the tool is to have been: all stock within its radius of them is to be swept. The grid itself never asks for more than the tool can do: its positions are exact.
 
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::{Cancelled, Watch};
@@ -30,7 +30,7 @@ const UPRIGHT: f64 = 1e-3;
 
 /// The finding of stock that is left.
 pub(super) fn left(layer: &Layer<'_>, swept: &[PlanePiece], (grid, reached): (&Grid, &[bool])) -> Option<Finding> {
-    let asked = grid.widened(reached, layer.radius - ROUGH);
+    let asked = grid.widened(reached, layer.radius - ROUGH.max(layer.clearing.tolerance));
     let mut cells = Cells::new(0.5 * layer.radius, layer.radius + grid.spacing);
     (0_u32..).zip(swept).for_each(|(number, piece)| cells.insert(number, piece));
     let (mut count, mut left, mut worst) = (0.0, 0.0, (0.0, [0.0; 2]));
@@ -128,6 +128,9 @@ impl Grid {
     /// Where the tool is to have been.
     pub fn reached(&self, layer: &Layer<'_>, free: &[bool], swept: &[PlanePiece], subject: &Subject) -> Vec<bool> {
         let core = self.core(free, layer.clearing.smoothing + layer.clearing.left[0]);
+        if layer.clearing.all {
+            return self.widened(&core, layer.clearing.smoothing);
+        }
         let entered = self.over_selected(layer, subject).into_iter().chain(self.passed(swept));
         self.widened(&self.connected(&core, entered), layer.clearing.smoothing)
     }
