@@ -16,7 +16,8 @@ SIDES = 3.0
 """By how much the stock is larger than the part, mm."""
 
 
-def job(**keys: Any) -> sc.Job:
+def job(rest: dict[str, Any] | None = None, **keys: Any) -> sc.Job:
+    """Roughing, and with `rest` a second operation by a smaller tool for what that leaves."""
     operation = {
         "id": "rough",
         "kind": "pocket",
@@ -29,13 +30,20 @@ def job(**keys: Any) -> sc.Job:
         "fit": "arcs",
         "spindle": {"mode": "fixed", "rpm": 8000.0},
     }
+    operations = [operation | keys]
+    if rest is not None:
+        operations.append(operation | {"id": "rest", "tool": "small", "rest_machining": True} | rest)
+    diameters = {"mill": 4.0} | ({"small": 2.0} if rest is not None else {})
     document = {
         "schema": 1,
         "part": {"file": "block.stl", "units": "mm"},
         "process": {"kind": "milling"},
         "setup": {"zero": "model", "stock": {"kind": "box", "sides": SIDES, "top": 1.0}},
-        "tools": {"mill": {"profile": {"kind": "flat", "diameter": 4.0}}},
-        "operations": [operation | keys],
+        "tools": {
+            name: {"number": number, "profile": {"kind": "flat", "diameter": diameter}}
+            for number, (name, diameter) in enumerate(diameters.items(), start=1)
+        },
+        "operations": operations,
         "machine": {"name": "linuxcnc"},
     }
     return sc.Job.from_dict(document, part=block())
@@ -100,3 +108,15 @@ def test_a_level_over_a_floor_follows_the_tolerance(roughed: tuple[sc.Job, list[
     assert 0.02 < over[over > -1e-3].min() < 0.05
     # what the coarse text leaves is too much for a fine tolerance
     assert "missing-level" in kinds(roughed[0], lines)
+
+
+def test_rest_roughing_owes_no_level_on_which_nothing_is_left() -> None:
+    asked = job(rest={})
+    lines = lines_of(asked)
+    assert kinds(asked, lines) == set()
+    # in the pocket's corners there is some on the levels over its floor, and none around the part below
+    _, rest = sc.verify("\n".join([*lines, ""]), asked).engagement
+    assert rest.layers[-1].floor > FLOOR
+    above = job(rest={"z_bottom": 4.0})
+    assert kinds(above, lines_of(above)) == set()
+    assert "missing-level" in kinds(asked, lines_of(above))

@@ -56,24 +56,35 @@ impl<'a> Work<'a> {
     ) -> Result<(), Cancelled> {
         let mut top = self.clearing.top;
         for floor in &self.heights {
-            let cleared = before::cleared(&self.before, [top, *floor], subject);
-            let radius = self.tool.cutter().at_height(top - floor).0;
-            look(&Layer {
-                stock: self.stock,
-                area: &Area::new(self.stock.outlines_between([top, *floor]), radius.max(LEAST_CELL)),
-                cleared: &cleared,
-                gone: &Cleared::new(&cleared, 0.0),
-                top,
-                floor: *floor,
-                radius,
-                unit: limits.unit,
-                chip: CHIP + 2.0 * limits.unit,
-                clearing: self.clearing,
-                operation: self.operation,
-            })?;
+            self.in_layer([top, *floor], subject, limits, &mut look)?;
             top = *floor;
         }
         Ok(())
+    }
+
+    /// Looks at what lies between two heights.
+    pub fn in_layer<T>(
+        &self,
+        [top, floor]: [f64; 2],
+        subject: &Subject,
+        limits: &Limits,
+        look: impl FnOnce(&Layer<'_>) -> T,
+    ) -> T {
+        let cleared = before::cleared(&self.before, [top, floor], subject);
+        let radius = self.tool.cutter().at_height(top - floor).0;
+        look(&Layer {
+            stock: self.stock,
+            area: &Area::new(self.stock.outlines_between([top, floor]), radius.max(LEAST_CELL)),
+            cleared: &cleared,
+            gone: &Cleared::new(&cleared, 0.0),
+            top,
+            floor,
+            radius,
+            unit: limits.unit,
+            chip: CHIP + 2.0 * limits.unit,
+            clearing: self.clearing,
+            operation: self.operation,
+        })
     }
 }
 

@@ -335,7 +335,7 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
 meridian: The path along the part's meridian, from the axis outwards, in X and Z, while the spindle turns the part: for parts that are
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
-pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
+pocket: Clears the stock over the selected faces, or all of it, level by level, with an engagement angle that stays below a bound all along the path.
 Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
 is a cylinder or a cone, with a flat end or a round one.
@@ -509,12 +509,6 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the part is cut from; its box when left out.
-As JSON
-0 or empty: not stated</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
 that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
 that an operation leaves out follow from it.
@@ -548,6 +542,13 @@ with the same bound of the engagement angle.</source>
 tool: The face that the tool touches.
 back: The face away from the tool.
 mid: The middle of the sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Which stock is cleared on each level: that over the selected faces, or all that the tool reaches, around the part too (roughing). Levels
+go down to the lowest selected face that the tool reaches; of all stock to z_bottom, where that is stated.
+faces: That in areas over the selected faces: a pocket.
+stock: All that the tool reaches, around the part too: roughing.</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
@@ -694,6 +695,10 @@ Range: 0.1 to 1000 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>All that the tool reaches, around the part too: roughing.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>All the other way round than `climb`.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -824,7 +829,11 @@ Range: 0 to 80 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
+        <source>Clears</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Clears the stock over the selected faces, or all of it, level by level, with an engagement angle that stays below a bound all along the path.
 Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1679,7 +1688,7 @@ wall's loops part (two pockets in one cup) each part has a spiral of its own. It
 meridian: The path along the part's meridian, from the axis outwards, in X and Z, while the spindle turns the part: for parts that are
 surfaces of revolution about X = Y = 0, which is measured, with a tool that stands parallel to that axis. `feeds.cut` follows from
 the feed per revolution and the spindle's speed.
-pocket: Clears the stock over the selected faces level by level, with an engagement angle that stays below a bound all along the path.
+pocket: Clears the stock over the selected faces, or all of it, level by level, with an engagement angle that stays below a bound all along the path.
 Stock is that of the set-up, the part's box where it states none, or what the operations before leave of it.
 flank: Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
 is a cylinder or a cone, with a flat end or a round one.
@@ -2094,10 +2103,6 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Stock</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Stock that stays on the surface, mm along its normals.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
@@ -2174,6 +2179,10 @@ As JSON
         <source>Tensile strength of its material, MPa: for an estimate of the axial force; none is made when left out.
 Range: 1 to 3000 MPa
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>That in areas over the selected faces: a pocket.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2496,12 +2505,6 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>What the part is cut from; its box when left out.
-As JSON
-0 or empty: not stated</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
 that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
 that an operation leaves out follow from it.
@@ -2539,6 +2542,13 @@ with the same bound of the engagement angle.</source>
 tool: The face that the tool touches.
 back: The face away from the tool.
 mid: The middle of the sheet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Which stock is cleared on each level: that over the selected faces, or all that the tool reaches, around the part too (roughing). Levels
+go down to the lowest selected face that the tool reaches; of all stock to z_bottom, where that is stated.
+faces: That in areas over the selected faces: a pocket.
+stock: All that the tool reaches, around the part too: roughing.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2715,6 +2725,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>error along the normals</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>faces</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -3039,6 +3053,10 @@ mid: The middle of the sheet.</source>
     </message>
     <message>
         <source>stepover along the wall, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stock</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

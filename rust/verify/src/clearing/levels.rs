@@ -1,0 +1,141 @@
+//! Levels that are missing: farther apart than a step, on level floors, and at the height to which all stock is to be cleared.
+//!
+//! Of rest machining only those on which there is stock left that the tool reaches: others have nothing to clear.
+
+use styluscam_motion::{Cancelled, Watch};
+
+use super::rest::{left, Grid};
+use super::work::Work;
+use crate::body::Body;
+use crate::expectation::Clearing;
+use crate::findings::{Finding, FindingKind, Severity};
+use crate::subject::{Limits, Subject};
+use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
+
+/// A finding, and the layers that the levels would have cleared, from the top down, mm.
+type Missing = (Finding, Vec<[f64; 2]>);
+
+/// The findings of levels that are missing.
+pub(super) fn missing(
+    work: &Work<'_>,
+    body: &Body,
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Vec<Finding>, Cancelled> {
+    let mut findings = Vec::new();
+    for (finding, layers) in wide(work).into_iter().chain(over_floors(work, subject)).chain(above_lowest(work)) {
+        let mut is_owed = !work.clearing.rest || layers.is_empty();
+        for layer in layers {
+            is_owed = is_owed || has_stock(layer, work, body, subject, limits, watch)?;
+        }
+        findings.extend(is_owed.then_some(finding));
+    }
+    Ok(findings)
+}
+
+/// Whether there is stock in a layer that the tool reaches.
+fn has_stock(
+    layer: [f64; 2],
+    work: &Work<'_>,
+    body: &Body,
+    subject: &Subject,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<bool, Cancelled> {
+    work.in_layer(layer, subject, limits, |layer| {
+        let grid = Grid::new(layer);
+        let free = grid.free(layer, body, subject, watch)?;
+        let reached = grid.reached(layer, &free, &[], subject);
+        Ok(left(layer, &[], (&grid, &reached)).is_some())
+    })
+}
+
+fn finding(message: String) -> Finding {
+    Finding::of_all(FindingKind::MissingLevel, Severity::Error, message)
+}
+
+/// The heights of the stock and of all levels.
+fn all_heights(work: &Work<'_>) -> Vec<f64> {
+    std::iter::once(work.clearing.top).chain(work.heights.iter().copied()).collect()
+}
+
+/// Layers a step thick from one height down to another.
+fn stepped(clearing: &Clearing, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+    let below = |top: f64| Some([top, (top - clearing.pitch.at(top)).max(to)]).filter(|_| top > to + SAME_LEVEL);
+    std::iter::successors(below(from), |[_, floor]| below(*floor)).collect()
+}
+
+/// Levels that lie farther apart than a step.
+fn wide(work: &Work<'_>) -> Vec<Missing> {
+    let (id, clearing) = (&work.operation.id, work.clearing);
+    all_heights(work)
+        .windows(2)
+        .filter_map(|pair| {
+            let [above, below] = pair else { return None };
+            let most = WIDE * clearing.pitch.at(*above) + ROUGH;
+            let mut layers = stepped(clearing, [*above, *below]);
+            layers.pop(); // the level below clears it
+            (above - below > most).then(|| {
+                let message = format!(
+                    "operation {id:?}: from Z{above:.3} to Z{below:.3} there is no level, and they are to be {most:.3} mm apart at \
+                     most; post the job again"
+                );
+                (finding(message), layers)
+            })
+        })
+        .collect()
+}
+
+/// Level floors of the selected faces on which there is none, or over which the last layer is too thick.
+fn over_floors(work: &Work<'_>, subject: &Subject) -> Vec<Missing> {
+    let Work { operation, clearing, .. } = work;
+    let (id, all) = (&operation.id, all_heights(work));
+    let [lowest, highest] = operation.expectation.heights;
+    let mut floors: Vec<f64> = operation
+        .expectation
+        .triangles()
+        .into_iter()
+        .filter(|triangle| subject.mesh.normal(*triangle).z > 1.0 - SLACK)
+        .map(|triangle| subject.mesh.corners(triangle)[0].z)
+        .filter(|z| *z < clearing.top - ROUGH && (lowest..=highest).contains(z))
+        .collect();
+    floors.sort_by(f64::total_cmp);
+    floors.dedup_by(|a, b| (*a - *b).abs() <= SAME_LEVEL);
+    let left = clearing.left[1];
+    let allowed = ROUGH + clearing.tolerance;
+    let over = floors.into_iter().filter(|floor| floor + left < clearing.top - ROUGH).map(|floor| {
+        let level = all.iter().position(|z| (-SAME_LEVEL..=allowed).contains(&(z - floor - left)));
+        let Some((level, above)) = level.and_then(|i| Some((all.get(i)?, all.get(i.checked_sub(1)?)?))) else {
+            let on = if left > 0.0 { format!("{left:.3} mm over") } else { "on".to_owned() };
+            let message = format!(
+                "operation {id:?}: no level lies {on} the floor at Z{floor:.3}; post the job again, or take its face out of faces"
+            );
+            let height = floor + left + clearing.tolerance;
+            let top = (height + clearing.pitch.at(height)).min(clearing.top);
+            return Some((finding(message), vec![[top, height]]));
+        };
+        (above - level > clearing.last_layer + 3.0 * ROUGH).then(|| {
+            let message = format!(
+                "operation {id:?}: the last layer over the floor at Z{floor:.3} takes {:.3} mm, and is to take {:.3} mm at most; post \
+                 the job again",
+                above - level,
+                clearing.last_layer
+            );
+            (finding(message), Vec::new())
+        })
+    });
+    over.flatten().collect()
+}
+
+/// That the last level lies higher than the height to which all stock is to be cleared.
+fn above_lowest(work: &Work<'_>) -> Option<Missing> {
+    let (id, clearing) = (&work.operation.id, work.clearing);
+    let (lowest, last) = (clearing.lowest?, work.heights.last().copied().unwrap_or(clearing.top));
+    (last > lowest + ROUGH + clearing.tolerance).then(|| {
+        let message = format!(
+            "operation {id:?}: the last level lies at Z{last:.3}, and stock is to be cleared down to Z{lowest:.3}; post the job again"
+        );
+        (finding(message), stepped(clearing, [last, lowest]))
+    })
+}
