@@ -1,0 +1,38 @@
+"""The top of a stock is faced by a pocket over the part's top: level by level, down to its exact height."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+import styluscam as sc
+
+TOP, STOCK, TOLERANCE = 10.0, 3.0, 0.005
+
+
+def job() -> sc.Job:
+    corners = [[x, y, z] for z in (0.0, TOP) for x, y in ((-20.0, -15.0), (20.0, -15.0), (20.0, 15.0), (-20.0, 15.0))]
+    sides = [[i, (i + 1) % 4, (i + 1) % 4 + 4] for i in range(4)] + [[i, (i + 1) % 4 + 4, i + 4] for i in range(4)]
+    triangles = [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], *sides]
+    document = {
+        "schema": 1,
+        "part": {"file": "made.stl", "units": "mm"},
+        "setup": {"stock": {"kind": "box", "top": STOCK, "sides": 2.0}},
+        "process": {"kind": "milling"},
+        "tools": {"mill": {"number": 1, "profile": {"kind": "flat", "diameter": 6.0}}},
+        "machine": {"name": "linuxcnc"},
+        "operations": [{"kind": "pocket", "tool": "mill", "step": {"height": 1.0}, "tolerance": TOLERANCE}],
+    }
+    return sc.Job.from_dict(document, part=sc.Part.from_mesh(np.array(corners), np.array(triangles)))
+
+
+def test_the_top_of_a_stock_is_faced_level_by_level() -> None:
+    asked = job()
+    text = sc.post(sc.plan(asked), asked.machine()).text
+    assert sc.verify(text, asked).ok
+    heights = sorted({float(z) for z in re.findall(r"^[^(\n]*Z(-?[\d.]+)", text, re.MULTILINE)})
+    assert heights[1:3] == [TOP + 1.0, TOP + 2.0] and TOP <= heights[0] <= TOP + TOLERANCE
+    # without the last level a millimetre stands
+    raised = re.sub(rf"\bZ{heights[0]:g}\b", f"Z{heights[1]:g}", text)
+    assert not sc.verify(raised, asked).ok
