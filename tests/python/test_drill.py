@@ -122,7 +122,11 @@ def test_a_counterbored_hole_begins_at_its_own_top() -> None:
         ("X20 Y20 Z4 ", "X20 Y20 Z3.9 ", "extra-hole"),
         ("X20 Y20 Z4 ", "X20 Y20 Z4.1 ", "missing-hole"),
         ("X20 Y20 Z4 R13 Q3", "X20 Y20 Z4 R13 Q4", "peck"),
+        ("X20 Y20 Z4 ", "X22 Y20 Z4 ", "gouge"),
         ("R13 Q3", "R11.9 Q3", "rapid-plunge"),
+        ("R13 Q3", "R12.04 Q3", "rapid-plunge"),
+        ("G98", "G99", "low-rapid"),
+        ("G83", "G73", "peck"),
     ],
 )
 def test_a_hole_that_is_missing_elsewhere_or_of_another_depth_is_found(
@@ -137,6 +141,115 @@ def test_a_rapid_below_what_is_drilled_is_found() -> None:
     text = text_of(asked, "grbl")
     assert "rapid-plunge" in kinds(text.replace("Z7.254\n", "Z6.9\n", 1), asked)
     assert "peck" in kinds(text.replace("G0 Z13\nZ10.254\nG1 Z7\n", "Z7\n", 1), asked)
+
+
+@pytest.mark.parametrize(
+    ("after", "added", "finding"),
+    [
+        ("G1 Z4\n", "X20.5\n", "extra-hole"),
+        ("G1 Z4\n", "G0 X20.5\n", "low-rapid"),
+        ("G1 Z4\n", "G2 X20 Y20 I0.2 J0\n", "extra-hole"),
+        ("G1 Z4\n", "G4 P0.5\n", "dwell"),
+        ("G1 Z4\n", "Z3.9\n", "extra-hole"),
+    ],
+)
+def test_what_is_added_at_the_bottom_of_a_hole_is_found(after: str, added: str, finding: str) -> None:
+    asked = job("grbl")
+    text = text_of(asked, "grbl")
+    assert after in text
+    assert finding in kinds(text.replace(after, after + added, 1), asked)
+
+
+@pytest.fixture(scope="module")
+def two_drills() -> sc.Job:
+    """A drill of 6.8 mm for one hole, T1, and then one of 5 mm for the others, T2."""
+    document = job(diameter=6.8).to_dict()
+    document["tools"]["narrow"] = job().to_dict()["tools"]["drill"] | {"number": 2}
+    document["operations"].append(document["operations"][0] | {"tool": "narrow"})
+    return sc.Job.from_dict(document)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "findings"),
+    [
+        ("T1 M6\nG43 H1", "T2 M6\nG43 H2", {"tool-differs"}),
+        ("T2 M6\nG43 H2", "T1 M6\nG43 H1", {"tool-differs", "gouge"}),
+        ("G81 X40 Y20", "G81 X8 Y8", {"extra-hole", "gouge", "missing-hole"}),
+        ("G81 X40 Y20", "G81 X45 Y30", {"extra-hole", "gouge", "missing-hole"}),
+    ],
+)
+def test_a_drill_in_a_hole_of_another_diameter_is_found(
+    two_drills: sc.Job, before: str, after: str, findings: set[str]
+) -> None:
+    text = text_of(two_drills)
+    assert kinds(text, two_drills) == set() and before in text
+    assert kinds(text.replace(before, after, 1), two_drills) >= findings
+
+
+@pytest.mark.parametrize(
+    ("turn", "rise", "finding"),
+    [
+        ("M4", "G1 Z13 F2400", ""),
+        ("", "G1 Z13 F2400", "spindle-differs"),
+        ("M4", "G1 Z13 F1200", "feed-differs"),
+        ("M4", "G0 Z13", "rapid-into-material"),
+    ],
+)
+def test_a_tap_that_does_not_come_out_as_it_went_in_is_found(turn: str, rise: str, finding: str) -> None:
+    asked = job(cycle={"kind": "tap", "pitch": 0.8})
+    depth = ""
+
+    def moves(hole: re.Match[str]) -> str:
+        nonlocal depth
+        depth = hole[2] or depth
+        return f"G0 {hole[1]}\nZ13\nG1 Z{depth} F2400\n{turn}\n{rise}\nM3\nG0 Z42\n"
+
+    start, holes = text_of(asked).split("G17\n", 1)
+    holes = re.sub(r"(?:G98 G84 )?(X\S+ Y\S+)(?: Z(\S+) R13 F2400)?\n", moves, holes.replace("G80\n", ""))
+    assert kinds(start + holes, asked) == ({finding} if finding else set())
+
+
+def test_a_boring_tool_that_comes_up_at_rapid_is_found() -> None:
+    asked = job(cycle={"kind": "bore"})
+    assert kinds(text_of(asked).replace("G85", "G81"), asked) == {"rapid-into-material"}
+
+
+def test_a_wait_that_is_longer_than_asked_is_found() -> None:
+    asked = job(cycle={"kind": "drill", "dwell": 0.5})
+    assert "dwell" in kinds(text_of(asked).replace("P0.5", "P5"), asked)
+
+
+def test_over_holes_stands_the_stock_that_the_job_states() -> None:
+    document = job(cycle=PECKS).to_dict()
+    document["setup"]["stock"] = {"kind": "box", "top": 3.0}
+    asked = sc.Job.from_dict(document)
+    text = text_of(asked)
+    assert set(re.findall(r" R(\S+)", text)) == {"16"}
+    assert kinds(text, asked) == set()
+    assert "rapid-plunge" in kinds(text.replace("R16", "R13"), asked)
+
+
+@pytest.mark.parametrize(
+    ("cycle", "work", "pitch"), [({"kind": "drill"}, "drilling", None), ({"kind": "tap", "pitch": 0.8}, "tapping", 0.8)]
+)
+def test_feeds_of_drills_follow_from_the_material(cycle: dict[str, Any], work: str, pitch: float | None) -> None:
+    document = job(cycle=cycle).to_dict()
+    del document["operations"][0]["feeds"], document["operations"][0]["spindle"]
+    document["process"]["material"] = "aluminium"
+    document["tools"]["drill"] |= {"cutter_material": "hss", "flutes": 2}
+    made = sc.Job.from_dict(document)
+    operation = made.document["operations"][0]
+    rpm = operation["spindle"]["rpm"]
+    tool = {key: document["tools"]["drill"][key] for key in ("profile", "flutes", "cutter_material")}
+    table = sc.cutting_data(tool, "aluminium", work, pitch=pitch)
+    assert rpm == int(table.rpm)
+    assert operation["feeds"]["plunge"] == pytest.approx(table.plunge, abs=1.0)
+    posted = {float(feed) for feed in re.findall(r" F(\S+)", text_of(made))}
+    assert len(posted) == 1
+    assert posted.pop() == pytest.approx(
+        table.plunge if pitch is None else pitch * rpm, abs=1.0 if pitch is None else 1e-3
+    )
+    assert kinds(text_of(made), made) == set()
 
 
 @pytest.mark.parametrize(

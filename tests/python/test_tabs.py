@@ -75,6 +75,27 @@ def test_a_tab_that_is_cut_is_found() -> None:
     assert "tabs" in findings(lowered(text_of(asked)), asked)
 
 
+def replaced_last(text: str, before: str, after: str) -> str:
+    """The text with the last of the places changed."""
+    start, end = text.rsplit(before, 1)
+    return start + after + end
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("X23.502 Z-4.499\n", "X23.502\n"),
+        ("X16.498\n", "X16.6\n"),
+        ("X23.502 Z-4.499\n", "X23.4 Z-4.499\n"),
+        ("X23.502 Z-4.499\n", "X23.502 Z-4.6\n"),
+    ],
+    ids=["removed", "too thin", "too thin before", "too low"],
+)
+def test_a_tab_that_is_changed_in_the_text_is_found(before: str, after: str) -> None:
+    asked = job(fit="lines")
+    assert "tabs" in findings(replaced_last(text_of(asked), before, after), asked)
+
+
 @pytest.mark.parametrize(
     "other", [{"count": 3}, {"height": 1.0}, {"height": 2.0}, {"width": 4.0}, {"width": 2.5}], ids=str
 )

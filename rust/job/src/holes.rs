@@ -41,6 +41,8 @@ pub(crate) struct Hole {
     pub bottom: f64,
     /// Height of its floor at the axis; none where it goes through.
     pub floor: Option<f64>,
+    /// How far its wall's triangles, which are chords, lie inside of the circle at most.
+    pub chord: f64,
 }
 
 impl Hole {
@@ -155,10 +157,15 @@ impl Wall {
 
     /// Whether it goes all the way around.
     fn is_whole(&self) -> bool {
+        self.widest() <= WIDEST
+    }
+
+    /// Its widest facet, rad.
+    fn widest(&self) -> f64 {
         let mut bearings = self.bearings.clone();
         bearings.sort_by(f64::total_cmp);
         let around = bearings.first().zip(bearings.last()).map_or(TAU, |(first, last)| TAU - (last - first));
-        bearings.windows(2).map(|pair| pair[1] - pair[0]).fold(around, f64::max) <= WIDEST
+        bearings.windows(2).map(|pair| pair[1] - pair[0]).fold(around, f64::max)
     }
 
     fn hole(self, rays: &Rays<'_>) -> Option<Hole> {
@@ -181,6 +188,7 @@ impl Wall {
         let floor = ring(BESIDE, middle).filter_map(below).fold(f64::NEG_INFINITY, f64::max);
         // under a shoulder a narrower hole goes on
         let floor = if floor.is_finite() && floor >= self.bottom - 2.0 * self.radius { floor } else { self.bottom };
+        let chord = self.radius * (1.0 - libm::cos(0.5 * self.widest()));
         Some(Hole {
             faces: self.faces,
             at: self.at,
@@ -188,6 +196,7 @@ impl Wall {
             top: self.top,
             bottom: self.bottom,
             floor: is_blind.then_some(floor),
+            chord,
         })
     }
 }

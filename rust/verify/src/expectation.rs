@@ -174,8 +174,12 @@ pub struct Drilling {
     pub holes: Vec<DrilledHole>,
     /// The deepest that the tool goes at once, mm; infinite where it goes down in one.
     pub peck: f64,
+    /// Whether it comes out of the hole after each peck.
+    pub clears: bool,
     /// Wait at the bottom, s.
     pub dwell: f64,
+    /// Whether it comes up at a feed, as taps and boring tools do.
+    pub rises_at_feed: bool,
     /// Whether the spindle turns back on the way up.
     pub is_tapping: bool,
 }
@@ -189,7 +193,9 @@ pub struct DrilledHole {
     pub at: [f64; 2],
     /// Its radius.
     pub radius: f64,
-    /// Where its wall begins.
+    /// How far its wall's triangles, which are chords, lie inside of the circle at most.
+    pub chord: f64,
+    /// Where its wall begins, or the stock over it.
     pub top: f64,
     /// The height that the tip reaches.
     pub bottom: f64,

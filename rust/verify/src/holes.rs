@@ -48,9 +48,11 @@ struct Drilled {
     depth: f64,
     /// Where the feed began that is going on, mm.
     from: Option<f64>,
+    /// The highest tip since the last feed down, mm.
+    up: f64,
 }
 
-const UNTOUCHED: Drilled = Drilled { depth: f64::INFINITY, from: None };
+const UNTOUCHED: Drilled = Drilled { depth: f64::INFINITY, from: None, up: f64::INFINITY };
 
 /// Faults of the operations that drill, in the order of the job's.
 pub(crate) fn faults(segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault> {
@@ -94,22 +96,38 @@ impl Walk<'_> {
         let on_axis = !segment.travels() && off <= self.limits.unit + SLACK;
         let Some(drilled) = number.and_then(|number| self.drilled.get_mut(number)) else { return Vec::new() };
         match segment.kind {
-            SegmentKind::Rapid => {
+            // beside the holes it is a rapid as any other
+            SegmentKind::Rapid if !on_axis => {
                 drilled.from = None;
-                let lowest = if drilled.depth.is_finite() { drilled.depth } else { hole.top.max(self.stock) };
-                // beside the holes it is a rapid as any other
-                let falls = on_axis && segment.descends() && segment.end[2] < lowest - self.limits.unit - SLACK;
-                let fault = || segment.fault(&faults::RAPID_IN_HOLE).measured(segment.end[2], lowest);
-                falls.then(fault).into_iter().collect()
+                Vec::new()
+            }
+            SegmentKind::Rapid => {
+                let start = segment.start.map_or(segment.end[2], |start| start[2]);
+                drilled.from = None;
+                drilled.up = drilled.up.max(segment.end[2]);
+                let open = if drilled.depth.is_finite() { drilled.depth } else { hole.top.max(self.stock) };
+                let least = open + self.limits.rapid_gap;
+                let (unit, is_up) = (self.limits.unit + SLACK, segment.end[2] > start);
+                let falls = segment.descends() && segment.end[2] < least - unit;
+                let tears = self.drilling.rises_at_feed && is_up && start < hole.top - unit;
+                let fall = || segment.fault(&faults::RAPID_IN_HOLE).measured(segment.end[2], open);
+                let tear = || segment.fault(&faults::RAPID_OUT_OF_HOLE).measured(start, hole.top);
+                falls.then(fall).into_iter().chain(tears.then(tear)).collect()
             }
             SegmentKind::Plunge if on_axis => {
                 let start = segment.start.map_or(segment.end[2], |start| start[2]);
+                let goes_on = drilled.from.is_none() && drilled.depth.is_finite() && segment.end[2] < drilled.depth;
+                let is_full = self.drilling.clears && goes_on && drilled.up < hole.top - self.limits.unit - SLACK;
+                let full = || segment.fault(&faults::PECK_NOT_CLEARED).measured(drilled.up, hole.top);
+                let full = is_full.then(full);
                 let from = *drilled.from.get_or_insert(start.min(drilled.depth));
                 drilled.depth = drilled.depth.min(segment.end[2]);
-                self.down(segment, hole, from, off)
+                drilled.up = segment.end[2];
+                full.into_iter().chain(self.down(segment, hole, from, off)).collect()
             }
             SegmentKind::Retract | SegmentKind::Still if on_axis => {
                 drilled.from = None;
+                drilled.up = drilled.up.max(segment.end[2]);
                 Vec::new()
             }
             _ => vec![segment.fault(&faults::NO_HOLE_HERE).measured(off, 0.0)],
@@ -136,6 +154,6 @@ impl Walk<'_> {
 }
 
 /// The clearance at and below which a tool on a hole's axis is in the part, mm.
-pub(crate) fn gouge_level(subject: &Subject, limits: &Limits) -> f64 {
-    -limits.gouge - subject.deviation_outward
+pub(crate) fn gouge_level(hole: &DrilledHole, subject: &Subject, limits: &Limits) -> f64 {
+    -limits.gouge - subject.deviation_outward.max(hole.chord)
 }

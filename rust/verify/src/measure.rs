@@ -250,12 +250,12 @@ impl<'a> Walk<'a> {
             return found;
         }
         let stroke = stroke_of(segment, prober.body);
-        let in_hole = holes::hole_of(segment, self.subject, self.limits).is_some();
-        let level = if in_hole { holes::gouge_level(self.subject, self.limits) } else { self.gouge_level() };
+        let hole = holes::hole_of(segment, self.subject, self.limits);
+        let level = hole.map_or(self.gouge_level(), |hole| holes::gouge_level(hole, self.subject, self.limits));
         found.deepest = deepest_of(segment, level, prober);
         found.samples = usize::from(found.deepest.is_some());
         // a drill is next to its wall: how deep a rapid may go there is another question
-        if !in_hole && segment.kind == SegmentKind::Rapid && segment.descends() && found.deepest.is_none() {
+        if hole.is_none() && segment.kind == SegmentKind::Rapid && segment.descends() && found.deepest.is_none() {
             found.landing = deepest(Stroke::still(stroke.to), self.limits.rapid_gap, prober);
         }
         found

@@ -56,6 +56,8 @@ fn feed_fault(
     let nearer = |[a, b]: [f64; 2]| if (feed - a).abs() <= (feed - b).abs() { a } else { b };
     let lead = operation.leads.filter(|_| role == Some(Role::Lead)).map(nearer);
     let expected = lead.unwrap_or(match segment.kind {
+        // out of its thread a tap comes at the pitch that it went in with
+        SegmentKind::Retract if taps(operation) => operation.plunge,
         SegmentKind::Plunge if comes_down && is_along_pass => operation.plunge,
         // a feed that goes nowhere or up is no faster than any other
         SegmentKind::Still | SegmentKind::Retract => no_faster,
@@ -71,14 +73,17 @@ fn feed_fault(
     (feed > 0.0 && !same && !operation.keeps_pace).then(|| segment.fault(&faults::FEED).measured(feed, expected))
 }
 
+fn taps(operation: &ExpectedOperation) -> bool {
+    operation.expectation.drilling().is_some_and(|drilling| drilling.is_tapping)
+}
+
 fn spindle_fault(
     operation: &ExpectedOperation,
     segment: &Segment,
     turns: Option<(f64, SpindleDirection)>,
 ) -> Option<Fault> {
     // a tap turns back on its way up
-    let taps = operation.expectation.drilling().is_some_and(|drilling| drilling.is_tapping);
-    let back = if taps && segment.kind == SegmentKind::Retract { -1.0 } else { 1.0 };
+    let back = if taps(operation) && segment.kind == SegmentKind::Retract { -1.0 } else { 1.0 };
     let (found, expected) = (signed(turns), back * signed(operation.spindle));
     let same = (found - expected).abs() <= 0.5 + SAME_FEED * expected.abs();
     (!same).then(|| segment.fault(&faults::SPINDLE).measured(found, expected))

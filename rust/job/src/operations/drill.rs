@@ -236,11 +236,6 @@ impl OperationKind for Drill {
             let message = format!("drilling does not follow {key}: it goes down the axes of holes, to their depth");
             return Err(JobError::document("conflict", format!("{path}.{key}"), message, format!("remove {key}")));
         }
-        if self.cycle.pitch().is_some() && !matches!(common.spindle, Spindle::Fixed { .. }) {
-            let message = "a tap's feed is its pitch times the spindle's speed, and the spindle is not driven";
-            let hint = "set spindle = { mode = \"fixed\", rpm = 300.0 }";
-            return Err(JobError::document("conflict", format!("{path}.spindle"), message, hint));
-        }
         Ok(())
     }
 
@@ -289,7 +284,7 @@ impl OperationKind for Drill {
         let holes = self.holes(&given);
         let skipped = holes_among(context.scene, &context.faces).len() - holes.len();
         let (holes, across) = in_order(context, &holes)?;
-        let mut drilled = self.drilled(context, &holes, DrillShape::of(&body))?;
+        let mut drilled = self.drilled(context, &given, &holes)?;
         let through = holes.iter().filter(|hole| hole.floor.is_none()).count();
         drilled.facts.push(Fact::length("across", across, "across from hole to hole"));
         let skipped = (skipped > 0).then(|| {
@@ -348,13 +343,16 @@ impl OperationKind for Drill {
             name: hole.name(),
             at: hole.at,
             radius: hole.radius,
-            top: hole.top,
+            chord: hole.chord,
+            top: begins(hole, given),
             bottom: self.bottom(hole, shape),
         };
         Passes::Drilling(Drilling {
             holes: self.holes(given).iter().map(drilled).collect(),
             peck: self.cycle.peck().unwrap_or(f64::INFINITY),
+            clears: matches!(self.cycle, HoleCycle::Peck { .. }),
             dwell: self.cycle.dwell(),
+            rises_at_feed: matches!(self.cycle, HoleCycle::Tap { .. } | HoleCycle::Bore { .. }),
             is_tapping: self.cycle.pitch().is_some(),
         })
     }
@@ -369,13 +367,24 @@ impl OperationKind for Drill {
 }
 
 impl Drill {
+    /// Speed and direction of the spindle. Taps without are refused here, not in `check`: a job that leaves the spindle out has it
+    /// from its material.
+    fn spindle(&self, context: &Context<'_>) -> Result<Option<(f64, SpindleDirection)>, JobError> {
+        match context.common.spindle {
+            Spindle::Fixed { rpm, direction } => Ok(Some((rpm, direction))),
+            Spindle::Off | Spindle::Free | Spindle::Rolling if self.cycle.pitch().is_some() => {
+                let message = "a tap's feed is its pitch times the spindle's speed, and the spindle is not driven";
+                let hint = "set spindle = { mode = \"fixed\", rpm = 300.0 }";
+                Err(JobError::document("conflict", format!("{}.spindle", context.path), message, hint))
+            }
+            Spindle::Off | Spindle::Free | Spindle::Rolling => Ok(None),
+        }
+    }
+
     /// The moves of holes in their order, with their cycles.
-    fn drilled(&self, context: &Context<'_>, holes: &[Hole], shape: DrillShape) -> Result<Planned, JobError> {
-        let common = context.common;
-        let spindle = match common.spindle {
-            Spindle::Fixed { rpm, direction } => Some((rpm, direction)),
-            Spindle::Off | Spindle::Free | Spindle::Rolling => None,
-        };
+    fn drilled(&self, context: &Context<'_>, given: &PassContext<'_>, holes: &[Hole]) -> Result<Planned, JobError> {
+        let (common, shape) = (context.common, DrillShape::of(given.body));
+        let spindle = self.spindle(context)?;
         let kind = self.cycle.kind(spindle.map_or(SpindleDirection::Clockwise, |(_, direction)| direction));
         let (mut moves, mut cycles) = (Vec::new(), Vec::new());
         let mut events: Vec<(usize, EventKind)> = Vec::new();
@@ -383,7 +392,7 @@ impl Drill {
         let mut depth = 0.0;
         for hole in holes {
             let [x, y] = hole.at;
-            let begins = hole.top.max(context.heights.top.unwrap_or(hole.top));
+            let begins = begins(hole, given).max(context.heights.top.unwrap_or(hole.top));
             let cycle = Cycle {
                 first: moves.len(),
                 count: 0,
@@ -432,6 +441,12 @@ impl Drill {
     }
 }
 
+/// Where material may begin over a hole, mm: its wall, or the stock that the job states.
+fn begins(hole: &Hole, given: &PassContext<'_>) -> f64 {
+    let is_stated = given.scene.stock_words.is_some();
+    hole.top.max(if is_stated { given.top } else { hole.top })
+}
+
 /// The holes in an order with short ways across, and their length, mm.
 fn in_order(context: &Context<'_>, holes: &[Hole]) -> Result<(Vec<Hole>, f64), JobError> {
     let pass = |(number, hole): (usize, &Hole)| {
@@ -468,7 +483,7 @@ mod tests {
     const SHAPE: DrillShape = DrillShape { diameter: 5.0, point: 1.5 };
 
     fn hole(floor: Option<f64>) -> Hole {
-        Hole { faces: vec![7], at: [0.0; 2], radius: 2.5, top: 12.0, bottom: 4.0, floor }
+        Hole { faces: vec![7], at: [0.0; 2], radius: 2.5, top: 12.0, bottom: 4.0, floor, chord: 0.0 }
     }
 
     fn drill(depth: HoleDepth) -> Drill {

@@ -30,6 +30,24 @@ pub(crate) static DEEP_PECK: FaultKind = FaultKind::on_part(
     |fault| format!("the drill goes {:.3} mm deep at once, and a peck is {:.3} mm", fault.value(), fault.limit()),
     "post the operation again: a peck is missing",
 );
+pub(crate) static PECK_NOT_CLEARED: FaultKind = FaultKind::on_part(
+    FindingKind::Peck,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the drill came up to Z{value:.3} only before this peck, and its hole begins at Z{limit:.3}")
+    },
+    "post the operation again: after each peck the drill comes out of the hole",
+);
+pub(crate) static RAPID_OUT_OF_HOLE: FaultKind = FaultKind::in_text(
+    FindingKind::RapidIntoMaterial,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!(
+            "a rapid comes up from Z{value:.3} in a hole that begins at Z{limit:.3}, and this tool comes up at a feed"
+        )
+    },
+    "come up at the operation's feed",
+);
 pub(crate) static RAPID_IN_HOLE: FaultKind = FaultKind::in_text(
     FindingKind::RapidPlunge,
     |fault| {
