@@ -339,14 +339,14 @@ impl Lift<'_> {
         }
     }
 
-    /// The shares of a path at which it enters or leaves a disc, or its height is that of the slope beside it; with both ends.
+    /// The shares of a path at which it enters or leaves a disc, or its height is that of the tab or of the slope beside it; with both ends.
     fn shares(&self, path: &Path, count: usize) -> Vec<f64> {
         let mut shares = vec![0.0, 1.0];
         for tab in self.tabs {
             let enters = |share: f64| self.off(tab, path.at(share));
             let rises = |share: f64| {
                 let point = path.at(share);
-                tab.top - self.off(tab, point) * self.rule.slope - point[2]
+                tab.top - self.off(tab, point).max(0.0) * self.rule.slope - point[2]
             };
             shares.extend(zeros(&enters, count));
             shares.extend(zeros(&rises, count));
@@ -456,6 +456,16 @@ mod tests {
         assert_eq!(roles, [None, None, None, Some(Role::Ramp), None, Some(Role::Ramp), None]);
         let above = [Move::rapid([20.0, -20.0, 9.0]), Move::feed([20.0, 20.0, 3.5], 900.0)];
         assert_eq!(super::lifted(&above, (&[tab], &RULE), &|_, _| true), above);
+    }
+
+    #[test]
+    fn a_ramp_that_comes_below_a_tabs_top_over_it_stays_up_to_its_edge() {
+        let tab = Tab { centre: [20.0, 0.0], top: 3.0 };
+        let ramp = [Move::rapid([20.0, -20.0, 3.5]), Move::feed([20.0, 20.0, 2.5], 900.0)];
+        let lifted = heights(&lifted(&ramp, (&[tab], &RULE), &|_, _| true));
+        for expected in [[20.0, 0.0, 3.0], [20.0, 5.0, 3.0]] {
+            assert!(lifted.contains(&expected), "{expected:?} in {lifted:?}");
+        }
     }
 
     #[test]

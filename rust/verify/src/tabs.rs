@@ -294,8 +294,24 @@ impl Tabs<'_> {
 
 /// Whether a move comes nearer to a tab's middle than `near`, mm in plan, below its top.
 fn is_below(segment: &Segment, tab: &Tab, near: f64) -> bool {
-    let is_cut = |[x, y, z]: [f64; 3]| z < tab.top - HEIGHT && apart([x, y], tab.centre) < near;
-    points(segment).any(is_cut)
+    let low = tab.top - HEIGHT;
+    let Some(start) = segment.start.filter(|_| segment.bend.is_none()) else {
+        return points(segment).any(|[x, y, z]| z < low && apart([x, y], tab.centre) < near);
+    };
+    let fall = segment.end[2] - start[2];
+    let crossing = ((low - start[2]) / fall).clamp(0.0, 1.0);
+    let [from, to] = match (start[2] < low, segment.end[2] < low) {
+        (true, true) => [0.0, 1.0],
+        (true, false) => [0.0, crossing],
+        (false, true) => [crossing, 1.0],
+        (false, false) => return false,
+    };
+    let way = [0, 1].map(|axis| segment.end[axis] - start[axis]);
+    let square = way[0] * way[0] + way[1] * way[1];
+    let along = way[0] * (tab.centre[0] - start[0]) + way[1] * (tab.centre[1] - start[1]);
+    let nearest = if square > 0.0 { (along / square).clamp(from, to) } else { from };
+    let [x, y, _] = segment.at(nearest);
+    apart([x, y], tab.centre) < near
 }
 
 fn comes_near(segment: &Segment, point: [f64; 2], distance: f64) -> bool {

@@ -95,7 +95,7 @@ fn each_tab_that_is_missing_is_found() {
 #[test]
 fn a_tab_that_is_too_thin_is_found_from_either_side() {
     for side in 0..4 {
-        for half in [[HALF - 0.2, HALF], [HALF, HALF - 0.2], [HALF - 1.0; 2]] {
+        for half in [[HALF - 0.02, HALF], [HALF, HALF - 0.02], [HALF - 1.0; 2]] {
             assert!(is_found(with(side, Some(Made { half, ..SOUND }))), "side {side} {half:?}");
         }
     }
