@@ -64,7 +64,7 @@ fn round(tabs: [Option<Made>; 4]) -> Path {
 /// Whether its tabs are found to be wrong.
 fn is_found(path: Path) -> bool {
     let (part, tools): (Part, [Tool; 1]) =
-        (block(), [tool(ProfileDocument::from(kinds::Flat { diameter: 2.0 * RADIUS }))]);
+        (block(), [tool(ProfileDocument::from(kinds::Flat { diameter: 2.0 * RADIUS, tip_flat: 0.0 }))]);
     let [plain] = expected(&part, Contact::Clear, [f64::NEG_INFINITY, 0.0], Passes::Unordered { reason: "one loop" });
     let expectation = Expectation { tabs: Some(SHAPE), ..plain.expectation };
     let operation = [ExpectedOperation { expectation, ..plain }];
