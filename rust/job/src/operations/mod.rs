@@ -54,6 +54,7 @@ kinds! {
         flank::Flank = "flank",
         drill::Drill = "drill",
         constant_scallop::ConstantScallop = "constant-scallop",
+        pencil::Pencil = "pencil",
     }
 }
 

@@ -39,7 +39,7 @@ mod waterlines;
 mod z_level;
 mod zig_zag;
 
-pub use constant_scallop::{constant_scallop, Contours};
+pub use constant_scallop::{constant_scallop, pencil, Contours, PencilRule};
 pub use floors::Floors;
 pub use grid::Grid;
 pub use layers::{layers, Layer};

@@ -2,10 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rayon::prelude::*;
+
 use super::chains::Beside;
-use super::crossing::Crossing;
+use super::crossing::{followed, Crossing};
 use super::distances::reached;
 use super::net::{Net, Triangle};
+use crate::Surface;
 
 /// The creases as they go through the triangles of a net.
 pub struct Creases<'a> {
@@ -16,7 +19,13 @@ pub struct Creases<'a> {
 
 impl<'a> Creases<'a> {
     pub fn of(net: &'a Net) -> Self {
-        let by_side: BTreeMap<[usize; 2], &Crossing> = net.crossings.iter().map(|c| (c.side, c)).collect();
+        Self::of_turn(net, 0.0)
+    }
+
+    /// Those at which normals differ by an angle, rad, or more.
+    pub fn of_turn(net: &'a Net, least: f64) -> Self {
+        let turning = net.crossings.iter().filter(|crossing| crossing.turn() >= least);
+        let by_side: BTreeMap<[usize; 2], &Crossing> = turning.map(|c| (c.side, c)).collect();
         let cells: BTreeSet<[usize; 2]> = by_side.keys().flat_map(|side| net.around(side[0])).collect();
         let mut pieces = Vec::new();
         for triangle in cells.into_iter().flat_map(|cell| net.halves(cell)) {
@@ -33,11 +42,13 @@ impl<'a> Creases<'a> {
         Self { by_side, pieces }
     }
 
-    /// Their lines in plan; closed ones repeat their first point.
-    pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
+    /// Their lines in plan; closed ones repeat their first point, and open ones go on up to `beyond` mm from the last node.
+    pub fn lines(&self, surface: &Surface<'_>, beyond: f64) -> Vec<Vec<[f64; 2]>> {
         let chains = Beside::of(self.pieces.iter().map(|(_, sides)| *sides)).chains();
         let at = |side: &[usize; 2]| self.by_side.get(side).map(|crossing| crossing.position());
-        chains.iter().map(|chain| chain.iter().filter_map(at).collect()).collect()
+        let line =
+            |chain: &Vec<[usize; 2]>| followed(surface, &chain.iter().filter_map(at).collect::<Vec<_>>(), beyond);
+        chains.par_iter().map(line).collect()
     }
 
     /// The nodes beside walls, with their distances: a pass runs along the foot, and `above` is the distance at its top.

@@ -17,6 +17,15 @@ const STEEPEST: f64 = 100.0;
 const OFF: f64 = 0.002;
 /// Halvings of a side.
 const HALVINGS: usize = 10;
+/// Lines along creases lie so near to them, mm: before a convex wall nearer than they are off it, or the tool would climb it.
+const ALONG: f64 = 0.25 * OFF;
+/// A crease is looked for so far to both sides of its chord, as a share of its length and mm.
+const ASIDE: f64 = 0.25;
+const LEAST_ASIDE: f64 = 4.0 * OFF;
+/// Steps beyond the last crossing that are no longer end the line, mm.
+const LEAST_STEP: f64 = 0.01;
+/// Halvings of the chord between two crossings.
+const FINEST: u32 = 8;
 
 /// Where a side of a net crosses a crease.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +45,11 @@ impl Crossing {
         } else {
             second
         }
+    }
+
+    /// The angle between the normals on both sides, rad.
+    pub fn turn(&self) -> f64 {
+        angle(&self.stations[0].normal, &self.stations[1].normal)
     }
 
     /// Whether the tool has to be lifted to cross it: an upright wall stands there.
@@ -90,4 +104,91 @@ pub fn crossing(surface: &Surface<'_>, side: [usize; 2], [a, b]: [&Station; 2]) 
     }
     let is_sudden = angle(&low.normal, &high.normal) >= SUDDEN * whole;
     is_sudden.then_some(Crossing { side: [side[0].min(side[1]), side[0].max(side[1])], stations: [low, high] })
+}
+
+/// The line along a crease through positions on it, mm, with as many more between them as it takes to stay on it; an open one goes on as
+/// far as `beyond` mm while there is a crease.
+pub fn followed(surface: &Surface<'_>, positions: &[[f64; 2]], beyond: f64) -> Vec<[f64; 2]> {
+    let [Some(first), Some(last)] = [positions.first(), positions.last()] else { return Vec::new() };
+    let mut whole = squared(surface, positions);
+    if first != last {
+        go_on(surface, &mut whole, beyond);
+        whole.reverse();
+        go_on(surface, &mut whole, beyond);
+        whole.reverse();
+    }
+    let mut line: Vec<[f64; 2]> = whole.first().copied().into_iter().collect();
+    for ends in whole.windows(2) {
+        if let [a, b] = ends {
+            follow(surface, [*a, *b], FINEST, &mut line);
+            line.push(*b);
+        }
+    }
+    line
+}
+
+/// The positions as they are found straight across the line: those on a lattice's sides were found aslant.
+fn squared(surface: &Surface<'_>, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let count = positions.len();
+    let is_closed = positions.first() == positions.last();
+    let across = |number: usize| {
+        let before = if is_closed && number == 0 { count - 2 } else { number.saturating_sub(1) };
+        let after = if is_closed && number + 1 == count { 1 } else { (number + 1).min(count - 1) };
+        let way = [0, 1].map(|i| positions[after][i] - positions[before][i]);
+        beside(surface, positions[number], way).unwrap_or(positions[number])
+    };
+    if count < 3 {
+        positions.to_vec()
+    } else {
+        (0..count).map(across).collect()
+    }
+}
+
+/// Adds positions behind the last one while the crease goes on.
+fn go_on(surface: &Surface<'_>, line: &mut Vec<[f64; 2]>, beyond: f64) {
+    let (mut step, mut gone) = (0.5 * beyond, 0.0);
+    while step > LEAST_STEP && gone < beyond {
+        let [.., before, last] = line[..] else { return };
+        let way = [last[0] - before[0], last[1] - before[1]];
+        let length = libm::hypot(way[0], way[1]);
+        let at = [0, 1].map(|i| last[i] + step * way[i] / length);
+        match beside(surface, at, [0, 1].map(|i| at[i] - last[i])) {
+            Some(found) => {
+                gone += step;
+                line.push(found);
+            }
+            None => step *= 0.5,
+        }
+    }
+}
+
+/// Adds the positions between two on a crease.
+fn follow(surface: &Surface<'_>, [a, b]: [[f64; 2]; 2], halvings: u32, line: &mut Vec<[f64; 2]>) {
+    let chord = [b[0] - a[0], b[1] - a[1]];
+    let at = |share: f64| [0, 1].map(|i| a[i] + share * chord[i]);
+    let found = [0.5, 0.25, 0.75].map(|share| (at(share), beside(surface, at(share), chord)));
+    let is_on = |(at, found): &([f64; 2], Option<[f64; 2]>)| {
+        found.is_none_or(|found| libm::hypot(found[0] - at[0], found[1] - at[1]) <= ALONG)
+    };
+    if halvings == 0 || found.iter().all(is_on) {
+        return;
+    }
+    let [(middle, on_crease), ..] = found;
+    let between = on_crease.unwrap_or(middle);
+    follow(surface, [a, between], halvings - 1, line);
+    line.push(between);
+    follow(surface, [between, b], halvings - 1, line);
+}
+
+/// The position on a crease beside the middle of its chord, if it is found there.
+fn beside(surface: &Surface<'_>, middle: [f64; 2], chord: [f64; 2]) -> Option<[f64; 2]> {
+    let length = libm::hypot(chord[0], chord[1]);
+    let share = (ASIDE * length).max(LEAST_ASIDE) / length;
+    let ends = [-share, share].map(|by| [middle[0] - by * chord[1], middle[1] + by * chord[0]]);
+    let mut hint = None;
+    let [first, second] = ends.map(|at| {
+        let contact = surface.envelope().contact_near(at[0], at[1], &mut hint)?;
+        Station::of(surface, at, &contact)
+    });
+    crossing(surface, [0, 1], [&first?, &second?]).map(|crossing| crossing.position())
 }

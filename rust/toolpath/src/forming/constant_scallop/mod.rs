@@ -11,6 +11,7 @@ mod distances;
 mod level_lines;
 mod measured;
 mod net;
+mod pencil;
 mod ridges;
 mod stations;
 mod thinning;
@@ -18,6 +19,8 @@ mod thinning;
 use rayon::prelude::*;
 use styluscam_geometry::ToolBody;
 use styluscam_motion::{Cancelled, Watch};
+
+pub use self::pencil::{pencil, PencilRule};
 
 use self::creases::Creases;
 use self::net::Net;
@@ -79,11 +82,25 @@ pub fn constant_scallop(
         lines.into_iter().map(move |line| (number, line))
     });
     let mut lines: Vec<(usize, Vec<[f64; 2]>)> = lines.collect();
-    let more = creases.lines().into_iter().chain(ridges::lines(&net, &values, &creases, watch)?);
+    let more = creases
+        .lines(surface, 2.0 * net.lattice.cell)
+        .into_iter()
+        .chain(ridges::lines(&net, &values, &creases, watch)?);
     lines.extend(more.map(|line| (by_level.len(), line)));
+    followed(surface, &lines, contours.narrow, deviation, watch)
+}
+
+/// The passes over lines in plan, each with the number of its group; closed lines repeat their first point.
+fn followed(
+    surface: &Surface<'_>,
+    lines: &[(usize, Vec<[f64; 2]>)],
+    narrow: f64,
+    deviation: f64,
+    watch: &Watch,
+) -> Result<Vec<Pass>, PlanError> {
     watch.begin("contours", lines.len());
     let along = |(group, line): &(usize, Vec<[f64; 2]>)| {
-        let runs = over_line(surface, line.iter().copied(), contours.narrow, deviation, watch)?;
+        let runs = over_line(surface, line.iter().copied(), narrow, deviation, watch)?;
         watch.advance(1)?;
         let is_closed =
             |points: &[PathPoint]| points.len() > 2 && points.first().map(|p| p.tip) == points.last().map(|p| p.tip);
