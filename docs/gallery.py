@@ -141,6 +141,14 @@ EXAMPLES = (
         process={"kind": "milling"},
     ),
     Example(
+        "pencil",
+        "Pencil",
+        "`pencil`: along the concave edges of an octagonal cup, which a ball bridges. Milling.",
+        "matrix/pyramid",
+        {"kind": "pencil"},
+        process={"kind": "milling"},
+    ),
+    Example(
         "flank",
         "Flank milling",
         "`flank`: the side of a leaning tool along the ruled sides of a twisted blade; two rotary axes. Milling.",

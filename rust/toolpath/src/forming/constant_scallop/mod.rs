@@ -82,15 +82,17 @@ pub fn constant_scallop(
         lines.into_iter().map(move |line| (number, line))
     });
     let mut lines: Vec<(usize, Vec<[f64; 2]>)> = lines.collect();
-    let more = creases
-        .lines(surface, 2.0 * net.lattice.cell)
-        .into_iter()
-        .chain(ridges::lines(&net, &values, &creases, watch)?);
-    lines.extend(more.map(|line| (by_level.len(), line)));
-    followed(surface, &lines, contours.narrow, deviation, watch)
+    let ridges = ridges::lines(&net, &values, &creases, watch)?;
+    let last = by_level.len();
+    lines.extend(ridges.into_iter().map(|line| (last, line)));
+    let mut passes = followed(surface, &lines, contours.narrow, deviation, watch)?;
+    let creases: Vec<_> = creases.lines(surface, 2.0 * net.lattice.cell).into_iter().map(|line| (last, line)).collect();
+    passes.extend(followed(&surface.keeping_witnesses(), &creases, contours.narrow, deviation, watch)?);
+    Ok(passes)
 }
 
-/// The passes over lines in plan, each with the number of its group; closed lines repeat their first point.
+/// The passes over lines in plan, each with the number of its group; closed lines repeat their first point. Lines along creases need a
+/// surface that keeps their witnesses: chords that are as near to the floor as is asked may be too near to the wall.
 fn followed(
     surface: &Surface<'_>,
     lines: &[(usize, Vec<[f64; 2]>)],

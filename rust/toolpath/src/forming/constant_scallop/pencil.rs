@@ -36,5 +36,5 @@ pub fn pencil(
     let net = net.ok_or_else(|| PlanError::NothingReached(String::new()))?;
     let creases = Creases::of_turn(&net, rule.least_turn);
     let lines: Vec<_> = creases.lines(surface, 2.0 * rule.spacing).into_iter().enumerate().collect();
-    followed(surface, &lines, rule.narrow, deviation, watch)
+    followed(&surface.keeping_witnesses(), &lines, rule.narrow, deviation, watch)
 }
