@@ -143,7 +143,7 @@ EXAMPLES = (
     Example(
         "pencil",
         "Pencil",
-        "`pencil`: along the concave edges of an octagonal cup, which a ball bridges. Milling.",
+        "`pencil`: along the concave edges of a square cup, which a ball bridges. Milling.",
         "matrix/pyramid",
         {"kind": "pencil"},
         process={"kind": "milling"},

@@ -341,7 +341,9 @@ flank: Mills ruled surfaces, such as blades and twisted walls, with the side of 
 is a cylinder or a cone, with a flat end or a round one.
 drill: Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
 cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.
-constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.</source>
+constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.
+pencil: Passes along concave edges and narrow fillets, where the tool touches two faces at once: they take what wider steps and a larger
+tool leave in the corners.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -432,6 +434,11 @@ As JSON
     <message>
         <source>The engagement angle that the path keeps to, degrees: of the arc along which the tool's rim is in the material.
 Range: 10 to 90 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The least angle by which the two faces turn away from each other where the tool touches them, degrees.
+Range: 6 to 175 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1475,6 +1482,10 @@ Range: above 0 to 100 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Least turn</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Left out</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1694,7 +1705,9 @@ flank: Mills ruled surfaces, such as blades and twisted walls, with the side of 
 is a cylinder or a cone, with a flat end or a round one.
 drill: Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
 cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.
-constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.</source>
+constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.
+pencil: Passes along concave edges and narrow fillets, where the tool touches two faces at once: they take what wider steps and a larger
+tool leave in the corners.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1738,6 +1751,11 @@ constant-scallop: Contours over the surface, from its border inwards, between wh
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Passes along concave edges and narrow fillets, where the tool touches two faces at once: they take what wider steps and a larger
+tool leave in the corners.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Path</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1747,6 +1765,10 @@ constant-scallop: Contours over the surface, from its border inwards, between wh
     </message>
     <message>
         <source>Paths for tools of any convex shape</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pencil</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2226,6 +2248,11 @@ Range: 10 to 90 deg</source>
     </message>
     <message>
         <source>The holder above it.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The least angle by which the two faces turn away from each other where the tool touches them, degrees.
+Range: 6 to 175 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2901,6 +2928,10 @@ stock: All that the tool reaches, around the part too: roughing.</source>
     </message>
     <message>
         <source>pair</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>pencil</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
