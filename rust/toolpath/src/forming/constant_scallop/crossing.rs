@@ -109,9 +109,8 @@ pub fn crossing(surface: &Surface<'_>, side: [usize; 2], [a, b]: [&Station; 2]) 
 /// The line along a crease through positions on it, mm, with as many more between them as it takes to stay on it; an open one goes on as
 /// far as `beyond` mm while there is a crease.
 pub fn followed(surface: &Surface<'_>, positions: &[[f64; 2]], beyond: f64) -> Vec<[f64; 2]> {
-    let [Some(first), Some(last)] = [positions.first(), positions.last()] else { return Vec::new() };
     let mut whole = squared(surface, positions);
-    if first != last {
+    if positions.first() != positions.last() {
         go_on(surface, &mut whole, beyond);
         whole.reverse();
         go_on(surface, &mut whole, beyond);
