@@ -61,9 +61,9 @@ fn every_key_of_every_kind_has_a_help_text() {
 fn every_kind_plans_and_says_what_it_planned() {
     let (part, watch) = (frustum(), Watch::default());
     let (upright, turning) = (machine(), Machine::shipped("linuxcnc-trunnion").unwrap());
-    // a pocket takes a minute with a tool this small, and a frustum has no holes: tests/python/test_pocket_operation.py and
-    // tests/python/test_drill.py plan those
-    for kind in kinds().filter(|kind| !["pocket", "drill"].contains(&Operation::NAMES[*kind])) {
+    // a pocket takes a minute with a tool this small, and a frustum has neither holes nor concave edges:
+    // tests/python/test_pocket_operation.py, test_drill.py and test_pencil.py plan those
+    for kind in kinds().filter(|kind| !["pocket", "drill", "pencil"].contains(&Operation::NAMES[*kind])) {
         let job = job(kind).unwrap();
         let scene = Scene::new(&job, crate::MAIN_CHANNEL, &part).unwrap();
         let machine = if job.operations[0].kind().leans() { &turning } else { &upright };
