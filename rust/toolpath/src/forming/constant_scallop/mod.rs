@@ -11,7 +11,6 @@ mod distances;
 mod level_lines;
 mod measured;
 mod net;
-mod pencil;
 mod ridges;
 mod stations;
 mod thinning;
@@ -19,8 +18,6 @@ mod thinning;
 use rayon::prelude::*;
 use styluscam_geometry::ToolBody;
 use styluscam_motion::{Cancelled, Watch};
-
-pub use self::pencil::{pencil, PencilRule};
 
 use self::creases::Creases;
 use self::net::Net;
@@ -46,6 +43,17 @@ const FIRST: f64 = 0.48;
 pub struct Contours {
     /// The scallop, mm.
     pub scallop: f64,
+    /// Largest distance between nodes, mm.
+    pub spacing: f64,
+    /// What is narrower may be missed, mm.
+    pub narrow: f64,
+}
+
+/// What is asked of pencil passes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PencilRule {
+    /// The least angle between the faces' normals where the tool touches them, rad.
+    pub least_turn: f64,
     /// Largest distance between nodes, mm.
     pub spacing: f64,
     /// What is narrower may be missed, mm.
@@ -89,6 +97,26 @@ pub fn constant_scallop(
     let creases: Vec<_> = creases.lines(surface, 2.0 * net.lattice.cell).into_iter().map(|line| (last, line)).collect();
     passes.extend(followed(&surface.keeping_witnesses(), &creases, contours.narrow, deviation, watch)?);
     Ok(passes)
+}
+
+/// The passes along all hollow creases over the selected faces, each a group of its own.
+///
+/// `body` is the tool with the sheet that it touches; chords deviate by at most `deviation` mm along the normal.
+///
+/// # Errors
+/// Nothing to touch, `Cancelled`.
+pub fn pencil(
+    surface: &Surface<'_>,
+    body: &ToolBody,
+    rule: &PencilRule,
+    deviation: f64,
+    watch: &Watch,
+) -> Result<Vec<Pass>, PlanError> {
+    let net = over(surface, Spacing::new(body, deviation), rule.spacing, watch)?;
+    let net = net.ok_or_else(|| PlanError::NothingReached(String::new()))?;
+    let creases = Creases::of_turn(&net, rule.least_turn);
+    let lines: Vec<_> = creases.lines(surface, 2.0 * rule.spacing).into_iter().enumerate().collect();
+    followed(&surface.keeping_witnesses(), &lines, rule.narrow, deviation, watch)
 }
 
 /// The passes over lines in plan, each with the number of its group; closed lines repeat their first point. Lines along creases need a
