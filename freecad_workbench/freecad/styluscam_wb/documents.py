@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import engine, machines, properties, stock, tools, wires
+from . import engine, machines, properties, tools, wires
 from .fields import JOB, OPERATION, PART, PROCESS, SECONDS, SETUP, SHEET
 
 if TYPE_CHECKING:
@@ -59,9 +59,7 @@ def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str
         for name in properties.shared():
             if getattr(first, name) != getattr(other, name):
                 raise DocumentError(f"{first.Label} and {other.Label} differ in {name}: they cannot be one program")
-    low, high = ([float(at) for at in corner] for corner in part.bounds)
-    described = None if properties.takes_sheet(first) else stock.section_of(job, low, high)
-    top = stock.top_of(described, high[2] + sheet_raise(first))
+    top = float(part.bounds[1][2]) + sheet_raise(first)
     return {
         "schema": 1,
         "title": job.Label,
@@ -74,7 +72,6 @@ def job_document(job: Any, operations: list[Any], part: EnginePart, machine: str
             "retract": _above("SafeHeight", operations, top),
             **properties.section(first, SETUP),
             **({"sheet": properties.section(first, SHEET)} if properties.takes_sheet(first) else {}),
-            **({"stock": described} if described is not None else {}),
         },
         "process": properties.section(first, PROCESS),
         "tools": {tool_name(obj.ToolController): _tool_section(obj.ToolController) for obj in operations},

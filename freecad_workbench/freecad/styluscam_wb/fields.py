@@ -31,7 +31,7 @@ HOST = {
     PROCESS: set[str](),
     SHEET: set[str](),
     PART: {"file", "faces", "units"},
-    SETUP: {"up", "rotation", "chuck", "zero", "wcs", "clearance", "retract", "sheet", "stock"},
+    SETUP: {"up", "rotation", "chuck", "zero", "wcs", "clearance", "retract", "sheet"},
     JOB: {
         "schema",
         "title",

@@ -571,7 +571,6 @@ SCENARIOS: dict[str, Scenario] = {
     "arcs": own("arcs"),
     "wires": own("wires", Stage),
     "native tool": own("native_tool"),
-    "stock": own("stocks", Stage, file="stock.py"),
 }
 
 SHARED = tuple(SCENARIOS)
