@@ -516,6 +516,12 @@ female: The part is formed into it from inside; the sheet is clamped at its rim.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>What the part is cut from; its box when left out.
+As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>What the part is made of, by a name. Of a sheet, that of a shipped material (`styluscam material list`): it sets the steepest wall
 that the sheet withstands. Of what is milled, that of a table of cutting data (`styluscam material cutting`): feeds and the spindle
 that an operation leaves out follow from it.
@@ -2125,6 +2131,10 @@ Range: 1 to 90 deg
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Stock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Stock that stays on the surface, mm along its normals.
 Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
@@ -2529,6 +2539,12 @@ Range: 0.8 to 1</source>
         <source>What lies under the sheet.
 male: The part is formed over it from outside, from its top outwards and down; the clamp frame goes down with the path.
 female: The part is formed into it from inside; the sheet is clamped at its rim.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the part is cut from; its box when left out.
+As JSON
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
