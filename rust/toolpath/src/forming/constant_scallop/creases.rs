@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rayon::prelude::*;
 
 use super::chains::Beside;
-use super::crossing::{followed, Crossing};
+use super::crossing::{line_along, Crossing};
 use super::distances::reached;
 use super::net::{Net, Triangle};
 use crate::Surface;
@@ -47,7 +47,7 @@ impl<'a> Creases<'a> {
         let chains = Beside::of(self.pieces.iter().map(|(_, sides)| *sides)).chains();
         let at = |side: &[usize; 2]| self.by_side.get(side).map(|crossing| crossing.position());
         let line =
-            |chain: &Vec<[usize; 2]>| followed(surface, &chain.iter().filter_map(at).collect::<Vec<_>>(), beyond);
+            |chain: &Vec<[usize; 2]>| line_along(surface, &chain.iter().filter_map(at).collect::<Vec<_>>(), beyond);
         chains.par_iter().map(line).collect()
     }
 

@@ -1,8 +1,7 @@
 //! Where the way from one of the tool's positions to another crosses a hollow crease of the envelope.
 
-use styluscam_geometry::Vector;
-
 use super::stations::Station;
+use crate::fitting::angle;
 use crate::Surface;
 
 /// Least angle between the normals on both sides of a crease, rad: 6 degrees. What is flatter is no higher than a part of the scallop.
@@ -80,10 +79,6 @@ impl Crossing {
     }
 }
 
-fn angle(a: &Vector, b: &Vector) -> f64 {
-    libm::atan2(a.cross(b).norm(), a.dot(b))
-}
-
 /// Where a side between two stations crosses a crease, if it does.
 pub fn crossing(surface: &Surface<'_>, side: [usize; 2], [a, b]: [&Station; 2]) -> Option<Crossing> {
     let whole = angle(&a.normal, &b.normal);
@@ -108,7 +103,7 @@ pub fn crossing(surface: &Surface<'_>, side: [usize; 2], [a, b]: [&Station; 2]) 
 
 /// The line along a crease through positions on it, mm, with as many more between them as it takes to stay on it; an open one goes on as
 /// far as `beyond` mm while there is a crease.
-pub fn followed(surface: &Surface<'_>, positions: &[[f64; 2]], beyond: f64) -> Vec<[f64; 2]> {
+pub fn line_along(surface: &Surface<'_>, positions: &[[f64; 2]], beyond: f64) -> Vec<[f64; 2]> {
     let mut whole = squared(surface, positions);
     if positions.first() != positions.last() {
         go_on(surface, &mut whole, beyond);
@@ -150,6 +145,9 @@ fn go_on(surface: &Surface<'_>, line: &mut Vec<[f64; 2]>, beyond: f64) {
         let [.., before, last] = line[..] else { return };
         let way = [last[0] - before[0], last[1] - before[1]];
         let length = libm::hypot(way[0], way[1]);
+        if length <= 0.0 {
+            return;
+        }
         let at = [0, 1].map(|i| last[i] + step * way[i] / length);
         match beside(surface, at, [0, 1].map(|i| at[i] - last[i])) {
             Some(found) => {
@@ -182,6 +180,9 @@ fn follow(surface: &Surface<'_>, [a, b]: [[f64; 2]; 2], halvings: u32, line: &mu
 /// The position on a crease beside the middle of its chord, if it is found there.
 fn beside(surface: &Surface<'_>, middle: [f64; 2], chord: [f64; 2]) -> Option<[f64; 2]> {
     let length = libm::hypot(chord[0], chord[1]);
+    if length <= 0.0 {
+        return None; // a line without a direction
+    }
     let share = (ASIDE * length).max(LEAST_ASIDE) / length;
     let ends = [-share, share].map(|by| [middle[0] - by * chord[1], middle[1] + by * chord[0]]);
     let mut hint = None;
