@@ -90,7 +90,7 @@ def cutting_data(
     request = {
         "material": word_of(material, "material", "the name of a material", JobError),
         "work": word_of(work, "work", "the name of a work", JobError),
-        "cutter_material": _cutter_of(cutter_material or known.get("cutter_material")),
+        "cutter_material": _cutter_of(known.get("cutter_material") if cutter_material is None else cutter_material),
         "flutes": known.get("flutes") if flutes is None else flutes,
         "pitch": pitch,
         "engagement": {"width": width, "angle_deg": angle_deg, "depth": depth},
