@@ -33,7 +33,7 @@ pub use facets::{Creased, Facets};
 pub use frame::Frame;
 pub use freeform::{CurvePoint, Foot, FootSearch, NurbsCurve, NurbsSurface, Pole, SurfacePoint};
 pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
-pub use plane::{PlaneCircle, PlanePiece, PlanePoint};
+pub use plane::{circle_outline, rectangle_outline, PlaneCircle, PlanePiece, PlanePoint};
 pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};
 pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallEnd, WallFault, WallShape, Walled, Warped};
 pub use sheet::{ModelFace, Sheet, SheetLaw};

@@ -11,6 +11,18 @@ pub type PlanePoint = [f64; 2];
 /// An arc with less height over its chord than this is straight, mm: the arithmetic of its centre would be off by as much.
 const STRAIGHT: f64 = 1e-9;
 
+/// The closed outline of a circle, counterclockwise: two points (x, y, bulge), mm.
+#[must_use]
+pub fn circle_outline([x, y]: PlanePoint, radius: f64) -> Vec<[f64; 3]> {
+    vec![[x + radius, y, 1.0], [x - radius, y, 1.0]]
+}
+
+/// The closed outline of a rectangle along the axes, counterclockwise from its lower corner: points (x, y, bulge), mm.
+#[must_use]
+pub fn rectangle_outline([x0, y0]: PlanePoint, [x1, y1]: PlanePoint) -> Vec<[f64; 3]> {
+    vec![[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]]
+}
+
 /// A straight or circular piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanePiece {

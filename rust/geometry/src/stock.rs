@@ -1,6 +1,6 @@
 //! Stock: the material that a part is cut from.
 
-use crate::{PlanePiece, Vector};
+use crate::{circle_outline, rectangle_outline, PlanePiece, Vector};
 
 /// Upright stock: the same outlines from its bottom to its top. Work coordinates, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,15 +17,13 @@ impl Stock {
     /// A box between two corners.
     #[must_use]
     pub fn of_box(low: Vector, high: Vector) -> Self {
-        let outline = vec![[low.x, low.y, 0.0], [high.x, low.y, 0.0], [high.x, high.y, 0.0], [low.x, high.y, 0.0]];
-        Self { outlines: vec![outline], bottom: low.z, top: high.z }
+        Self { outlines: vec![rectangle_outline([low.x, low.y], [high.x, high.y])], bottom: low.z, top: high.z }
     }
 
     /// An upright cylinder between two heights.
     #[must_use]
-    pub fn cylinder([x, y]: [f64; 2], radius: f64, [bottom, top]: [f64; 2]) -> Self {
-        let outline = vec![[x + radius, y, 1.0], [x - radius, y, 1.0]];
-        Self { outlines: vec![outline], bottom, top }
+    pub fn cylinder(axis: [f64; 2], radius: f64, [bottom, top]: [f64; 2]) -> Self {
+        Self { outlines: vec![circle_outline(axis, radius)], bottom, top }
     }
 
     /// The outlines of what lies between two heights, from the upper one: none above its top and below its underside.

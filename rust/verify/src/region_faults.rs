@@ -31,9 +31,7 @@ impl<'a> Asked<'a> {
             let Region { edges, slopes, check, .. } = &operation.expectation.region;
             edges.is_some() || slopes.is_some() || check.is_some()
         };
-        let body = |operation: &ExpectedOperation| {
-            Some(operation).filter(|operation| bounded(operation)).and_then(|operation| subject.touching(operation))
-        };
+        let body = |operation: &ExpectedOperation| bounded(operation).then(|| subject.touching(operation)).flatten();
         Self { subject, bodies: subject.expected.iter().map(body).collect() }
     }
 

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::Stock;
+use styluscam_geometry::{circle_outline, Stock};
 use styluscam_toolpath::pocket::EntryForm;
 
 use super::Context;
@@ -53,8 +53,7 @@ pub struct EntryHole {
 impl EntryHole {
     /// Its outline: two points with bulges.
     pub(super) fn outline(self) -> Vec<[f64; 3]> {
-        let radius = 0.5 * self.diameter;
-        vec![[self.x + radius, self.y, 1.0], [self.x - radius, self.y, 1.0]]
+        circle_outline([self.x, self.y], 0.5 * self.diameter)
     }
 
     /// Whether the tool finds its first passes in the hole: a circle of the smallest radius `rho` keeps the material as far away as the bound

@@ -72,7 +72,7 @@ impl Scene {
             inward: if opposite.is_none() { part.inward } else { part.outward },
             outward: if opposite.is_none() { part.outward } else { part.inward },
             stock,
-            stock_words: stock_words.filter(|_| job.setup.stock.is_some()),
+            stock_words: stock_words.flatten(),
             top,
             flat,
             clearance: top + job.setup.clearance,

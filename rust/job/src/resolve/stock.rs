@@ -22,15 +22,16 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
     section.as_kind().check(SECTION)
 }
 
-/// The stock of a job, work coordinates, with its words: the part's box where it states none.
+/// The stock of a job, work coordinates, with its words where the job states one: else it is the part's box.
 ///
 /// # Errors
 /// The part sticks out of it.
-pub fn stock_of(job: &JobDocument, vertices: &[Vector], bounds: (Vector, Vector)) -> Result<(Stock, String), JobError> {
-    let (low, high) = bounds;
-    let Some(section) = &job.setup.stock else {
-        return Ok((Stock::of_box(low, high), "the part's box".to_owned()));
-    };
+pub fn stock_of(
+    job: &JobDocument,
+    vertices: &[Vector],
+    (low, high): (Vector, Vector),
+) -> Result<(Stock, Option<String>), JobError> {
+    let Some(section) = &job.setup.stock else { return Ok((Stock::of_box(low, high), None)) };
     let kind = section.as_kind();
     let stock = kind.around(low, high);
     if stock.bottom >= stock.top {
@@ -41,16 +42,12 @@ pub fn stock_of(job: &JobDocument, vertices: &[Vector], bounds: (Vector, Vector)
         let is_between = (stock.bottom - SAME..=stock.top + SAME).contains(&point.z);
         !is_between || !kind.holds(&stock, [point.x, point.y], SAME)
     };
+    let words = kind.words(&stock);
     if let Some(point) = vertices.iter().find(sticks_out) {
         let [x, y, z] = [point.x, point.y, point.z].map(|mm| shown((mm * 1e3).round() / 1e3));
-        let message = format!("the part sticks out of the stock ({}) at X{x} Y{y} Z{z}", kind.words(&stock));
-        return Err(JobError::document(
-            "conflict",
-            SECTION,
-            message,
-            "make the stock larger, or move it over the part",
-        ));
+        let message = format!("the part sticks out of the stock ({words}) at X{x} Y{y} Z{z}");
+        let hint = "make the stock larger, or move it over the part";
+        return Err(JobError::document("conflict", SECTION, message, hint));
     }
-    let words = kind.words(&stock);
-    Ok((stock, words))
+    Ok((stock, Some(words)))
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-use styluscam_geometry::{PlanePiece, Stock};
+use styluscam_geometry::{circle_outline, PlanePiece, Stock};
 use styluscam_motion::{Cancelled, Watch};
 
 use super::own::Own;
@@ -153,7 +153,7 @@ impl Layer<'_> {
 
     /// The outlines of the stock, and of the hole in it.
     fn stock(&self) -> Vec<Vec<[f64; 3]>> {
-        let hole = self.clearing.hole.map(|([x, y], radius)| vec![[x + radius, y, 1.0], [x - radius, y, 1.0]]);
+        let hole = self.clearing.hole.map(|(axis, radius)| circle_outline(axis, radius));
         self.stock.outlines_between([self.top, self.floor]).iter().cloned().chain(hole).collect()
     }
 
