@@ -72,10 +72,8 @@ pub fn with_cutting_data(
 
 /// The machine's limits with the spindle at the speed that the job states.
 fn at_speed(section: &OperationSection, limits: MachineLimits) -> MachineLimits {
-    match section.common.spindle {
-        Spindle::Fixed { rpm, .. } => MachineLimits { min_rpm: Some(rpm), max_rpm: Some(rpm), ..limits },
-        Spindle::Off | Spindle::Free | Spindle::Rolling => limits,
-    }
+    let rpm = section.common.spindle.rpm();
+    MachineLimits { min_rpm: rpm.or(limits.min_rpm), max_rpm: rpm.or(limits.max_rpm), ..limits }
 }
 
 fn data_of(

@@ -67,11 +67,6 @@ impl OperationKind for ConstantScallop {
 }
 
 impl FollowsSurface for ConstantScallop {
-    fn tip_range(&self, task: &Task<'_>) -> [f64; 2] {
-        let tolerance = task.context.common.tolerance;
-        [task.context.heights.bottom, task.context.heights.top.map_or(f64::INFINITY, |z| z + tolerance)]
-    }
-
     /// What lies farther from the border.
     fn has_material_on_right(&self) -> bool {
         true
@@ -83,10 +78,6 @@ impl FollowsSurface for ConstantScallop {
 
     fn pitch(&self, body: &ToolBody) -> f64 {
         body.chord(0.0, self.scallop).min(body.max_radius())
-    }
-
-    fn lowest_rest(&self, _body: &ToolBody) -> f64 {
-        0.0
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {

@@ -10,6 +10,7 @@ use styluscam_toolpath::{shortly_ordered, Air, Freedom, Pass, PathPoint, Seam, S
 use styluscam_verify::{Contact, DrilledHole, Drilling, Passes};
 
 use super::facts::counted;
+use super::keys;
 use super::{
     About, Areas, Context, Effort, Fact, Fit, LeadForm, LinkHeight, Machining, OperationKind, PassContext, PassSpacing,
     Planned, Serves, Spindle,
@@ -122,7 +123,7 @@ impl HoleCycle {
     fn pitch(self) -> Option<f64> {
         match self {
             Self::Tap { pitch } => Some(pitch),
-            _ => None,
+            Self::Drill { .. } | Self::Peck { .. } | Self::ChipBreak { .. } | Self::Bore { .. } => None,
         }
     }
 }
@@ -175,10 +176,10 @@ impl Drill {
         }
     }
 
-    /// The holes that are drilled.
-    fn holes(&self, given: &PassContext<'_>) -> Vec<Hole> {
+    /// The holes that are drilled, and those of another diameter.
+    fn holes(&self, given: &PassContext<'_>) -> (Vec<Hole>, Vec<Hole>) {
         let shape = DrillShape::of(given.body);
-        holes_among(given.scene, given.faces).into_iter().filter(|hole| self.fits(hole, shape)).collect()
+        holes_among(given.scene, given.faces).into_iter().partition(|hole| self.fits(hole, shape))
     }
 
     /// Named faces that are no wall of an upright hole that the tool fits.
@@ -232,11 +233,10 @@ impl OperationKind for Drill {
             ("radial_stock_to_leave", common.radial_stock_to_leave > 0.0),
             ("axial_stock_to_leave", common.axial_stock_to_leave > 0.0),
         ];
-        if let Some((key, _)) = refused.into_iter().find(|(_, is_stated)| *is_stated) {
+        keys::refuse(&refused, path, |key| {
             let message = format!("drilling does not follow {key}: it goes down the axes of holes, to their depth");
-            return Err(JobError::document("conflict", format!("{path}.{key}"), message, format!("remove {key}")));
-        }
-        Ok(())
+            (message, format!("remove {key}"))
+        })
     }
 
     fn cutting(&self) -> Machining {
@@ -258,11 +258,7 @@ impl OperationKind for Drill {
     }
 
     fn cut_feed(&self, common: &OperationKeys) -> f64 {
-        let rpm = match common.spindle {
-            Spindle::Fixed { rpm, .. } => Some(rpm),
-            Spindle::Off | Spindle::Free | Spindle::Rolling => None,
-        };
-        self.plunge_feed(common, rpm)
+        self.plunge_feed(common, common.spindle.rpm())
     }
 
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
@@ -281,8 +277,8 @@ impl OperationKind for Drill {
             body: &body,
             to_leave: [0.0; 2],
         };
-        let holes = self.holes(&given);
-        let skipped = holes_among(context.scene, &context.faces).len() - holes.len();
+        let (holes, others) = self.holes(&given);
+        let skipped = others.len();
         let (holes, across) = in_order(context, &holes)?;
         let mut drilled = self.drilled(context, &given, &holes)?;
         let through = holes.iter().filter(|hole| hole.floor.is_none()).count();
@@ -348,7 +344,7 @@ impl OperationKind for Drill {
             bottom: self.bottom(hole, shape),
         };
         Passes::Drilling(Drilling {
-            holes: self.holes(given).iter().map(drilled).collect(),
+            holes: self.holes(given).0.iter().map(drilled).collect(),
             peck: self.cycle.peck().unwrap_or(f64::INFINITY),
             clears: matches!(self.cycle, HoleCycle::Peck { .. }),
             dwell: self.cycle.dwell(),

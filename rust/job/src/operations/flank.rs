@@ -10,6 +10,7 @@ use styluscam_toolpath::flank::{
 use styluscam_verify::{Contact, FlankFace, FlankPasses, Passes};
 
 use super::facts::counted;
+use super::keys;
 use super::rails::{FlankSide, Rails, RuledSurface};
 use super::{
     About, Areas, Context, Direction, Effort, Fact, Fit, LeadForm, LinkHeight, OperationKind, PassContext, PassSpacing,
@@ -254,11 +255,10 @@ impl OperationKind for Flank {
             ("fit", common.fit != Fit::Lines),
             ("slow_corners", common.slow_corners),
         ];
-        if let Some((key, _)) = refused.into_iter().find(|(_, is_stated)| *is_stated) {
+        keys::refuse(&refused, path, |key| {
             let message = format!("flank milling does not follow {key}: its path is that of the rulings");
-            let hint = format!("remove {key}; overreach, extension and lead_length shape the ends of its passes");
-            return Err(JobError::document("conflict", format!("{path}.{key}"), message, hint));
-        }
+            (message, format!("remove {key}; overreach, extension and lead_length shape the ends of its passes"))
+        })?;
         if common.leaves_stock() {
             let message = "flank milling leaves stock along the normals of its surface";
             let hint = "set stock_to_leave instead of radial_stock_to_leave and axial_stock_to_leave";

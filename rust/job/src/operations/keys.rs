@@ -6,7 +6,7 @@ use styluscam_motion::SpindleDirection;
 
 use crate::boundary::BoundaryKeys;
 use crate::selection::CheckSelection;
-use crate::Selection;
+use crate::{JobError, Selection};
 
 /// One operation: what is common to all kinds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -259,6 +259,15 @@ pub enum Spindle {
 }
 
 impl Spindle {
+    /// The speed at which it is driven, rev/min, where it is.
+    #[must_use]
+    pub fn rpm(&self) -> Option<f64> {
+        match self {
+            Self::Fixed { rpm, .. } => Some(*rpm),
+            Self::Off | Self::Free | Self::Rolling => None,
+        }
+    }
+
     /// Its sense; none while it is not driven.
     #[must_use]
     pub fn direction(&self) -> Option<SpindleDirection> {
@@ -279,6 +288,20 @@ pub enum Coolant {
     Off,
     /// Flood.
     Flood,
+}
+
+/// Refuses the first of some keys that is stated; `why` names it in a message and a hint, and `path` is the operation's.
+///
+/// # Errors
+/// One is stated.
+pub(super) fn refuse(
+    keys: &[(&str, bool)],
+    path: &str,
+    why: impl Fn(&str) -> (String, String),
+) -> Result<(), JobError> {
+    let Some((key, _)) = keys.iter().find(|(_, is_stated)| *is_stated) else { return Ok(()) };
+    let (message, hint) = why(key);
+    Err(JobError::document("conflict", format!("{path}.{key}"), message, hint))
 }
 
 fn path_tolerance() -> f64 {

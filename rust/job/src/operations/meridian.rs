@@ -95,11 +95,8 @@ impl OperationKind for Meridian {
     }
 
     fn cut_feed(&self, common: &OperationKeys) -> f64 {
-        match common.spindle {
-            Spindle::Fixed { rpm, .. } => self.feed_per_rev * rpm,
-            // refused by `check`
-            Spindle::Off | Spindle::Free | Spindle::Rolling => common.feeds.cut,
-        }
+        // spindles that are not driven are refused by `check`
+        common.spindle.rpm().map_or(common.feeds.cut, |rpm| self.feed_per_rev * rpm)
     }
 
     fn turns_part(&self) -> bool {
@@ -218,10 +215,6 @@ impl FollowsSurface for Meridian {
 
     fn pitch(&self, _body: &ToolBody) -> f64 {
         self.feed_per_rev
-    }
-
-    fn lowest_rest(&self, _body: &ToolBody) -> f64 {
-        0.0
     }
 
     fn has_material_on_right(&self) -> bool {

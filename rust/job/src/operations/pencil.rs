@@ -69,11 +69,6 @@ impl OperationKind for Pencil {
 }
 
 impl FollowsSurface for Pencil {
-    fn tip_range(&self, task: &Task<'_>) -> [f64; 2] {
-        let tolerance = task.context.common.tolerance;
-        [task.context.heights.bottom, task.context.heights.top.map_or(f64::INFINITY, |z| z + tolerance)]
-    }
-
     fn has_material_on_right(&self) -> bool {
         true
     }
@@ -84,10 +79,6 @@ impl FollowsSurface for Pencil {
 
     fn pitch(&self, body: &ToolBody) -> f64 {
         body.max_radius()
-    }
-
-    fn lowest_rest(&self, _body: &ToolBody) -> f64 {
-        0.0
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::Stock;
+use styluscam_geometry::{rectangle_outline, Stock};
 use styluscam_motion::{Arc, Move, MoveKind, Role};
 use styluscam_toolpath::forming::{levels, selected_range, with_levels_at, z_levels, Floors, Grid, LevelRange};
 use styluscam_toolpath::offset::Envelope;
@@ -18,6 +18,7 @@ use super::clears::Clears;
 use super::corners;
 use super::entry::{Entry, EntryHole};
 use super::facts::counted;
+use super::keys;
 use super::levels::{self, LevelKeys};
 use super::step::{Step, StepLimits};
 use super::surface::sense;
@@ -210,16 +211,11 @@ impl OperationKind for Pocket {
             ("lead", common.lead != LeadForm::None),
             ("links", common.links != LinkHeight::Clearance),
         ];
-        match refused.into_iter().find(|(_, is_stated)| *is_stated) {
-            Some((key, _)) => {
-                let message = format!(
-                    "a pocket does not follow {key}: its path is bounded by walls, stock and the engagement angle"
-                );
-                let hint = format!("remove {key}; which faces are cleared is stated by faces");
-                Err(JobError::document("conflict", format!("{path}.{key}"), message, hint))
-            }
-            None => Ok(()),
-        }
+        keys::refuse(&refused, path, |key| {
+            let message =
+                format!("a pocket does not follow {key}: its path is bounded by walls, stock and the engagement angle");
+            (message, format!("remove {key}; which faces are cleared is stated by faces"))
+        })
     }
 
     fn cuts_upright_walls(&self) -> bool {
@@ -528,8 +524,7 @@ fn with_last_layers(mut heights: Vec<f64>, top: f64, thickness: f64, floors: &[(
 /// The outline of the stock's box in plan, `by` mm larger on all sides.
 fn box_around(stock: &Stock, by: f64) -> Vec<[f64; 3]> {
     let (low, high) = stock.bounds();
-    let [x0, y0, x1, y1] = [low.x - by, low.y - by, high.x + by, high.y + by];
-    vec![[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]]
+    rectangle_outline([low.x - by, low.y - by], [high.x + by, high.y + by])
 }
 
 /// Whether a tool that is lowered in an area touches selected faces there.

@@ -26,8 +26,11 @@ const LEAST_AREA: f64 = 0.05;
 
 /// A kind whose tool follows the selected faces.
 pub trait FollowsSurface: OperationKind + Sync {
-    /// Heights between which the tip stays on the surface, mm.
-    fn tip_range(&self, task: &Task<'_>) -> [f64; 2];
+    /// Heights between which the tip stays on the surface, mm: those of the job.
+    fn tip_range(&self, task: &Task<'_>) -> [f64; 2] {
+        let tolerance = task.context.common.tolerance;
+        [task.context.heights.bottom, task.context.heights.top.map_or(f64::INFINITY, |z| z + tolerance)]
+    }
 
     /// How far the part may differ from what its passes are traced on, mm.
     ///
@@ -41,7 +44,9 @@ pub trait FollowsSurface: OperationKind + Sync {
     fn pitch(&self, body: &ToolBody) -> f64;
 
     /// How far above the lowest allowed height the last pass may lie by the kind's own rule, mm.
-    fn lowest_rest(&self, body: &ToolBody) -> f64;
+    fn lowest_rest(&self, _body: &ToolBody) -> f64 {
+        0.0
+    }
 
     /// Whether the material that still stands lies on the right of its passes as they are traced, else on the left.
     fn has_material_on_right(&self) -> bool;

@@ -271,11 +271,6 @@ fn ridges(context: &Context<'_>, stepover: f64, increment: f64, most: f64) -> Jo
 
 impl FollowsSurface for ZigZag {
     /// What lies at the top is formed within the tolerance above it.
-    fn tip_range(&self, task: &Task<'_>) -> [f64; 2] {
-        let tolerance = task.context.common.tolerance;
-        [task.context.heights.bottom, task.context.heights.top.map_or(f64::INFINITY, |z| z + tolerance)]
-    }
-
     /// Rows go on to the left of their direction.
     fn has_material_on_right(&self) -> bool {
         false
@@ -311,10 +306,6 @@ impl FollowsSurface for ZigZag {
 
     fn pitch(&self, _body: &ToolBody) -> f64 {
         self.stepover
-    }
-
-    fn lowest_rest(&self, _body: &ToolBody) -> f64 {
-        0.0
     }
 
     fn trace(&self, task: &Task<'_>, surface: &Surface<'_>) -> Result<Traced, PlanError> {
