@@ -153,6 +153,7 @@ bench: dev ## Measures ours and others side by side; writes docs/performance.md
 	$(BIN)/python bench/simulation.py
 	$(BIN)/python bench/posts.py
 	$(BIN)/python bench/addon.py
+	$(BIN)/python bench/machining_time.py
 
 .PHONY: fixtures
 fixtures: ## Rebuilds the STEP parts and their exact answers (Python 3.11 or later)

@@ -156,20 +156,20 @@ class Ground:
     """Of all of them, mm^2."""
 
     @classmethod
-    def of(cls, part: str) -> Ground:
-        shape = sc.Part.read(ROOT / "fixtures" / f"{part}.step", tolerance=TESSELLATION)
-        tool = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": 2.0 * RADIUS}})
+    def of(cls, part: str, radius: float = RADIUS, tolerance: float = TESSELLATION, count: int = POINTS) -> Ground:
+        shape = sc.Part.read(ROOT / "fixtures" / f"{part}.step", tolerance=tolerance)
+        tool = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": 2.0 * radius}})
         corners = np.asarray(shape.arrays.vertices)[np.asarray(shape.arrays.triangles)]
         normals = np.asarray(shape.arrays.normals)
         areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         areas[normals[:, :, 2].mean(axis=1) < STEEPEST] = 0.0
         random = np.random.default_rng(2)
-        chosen = random.choice(len(areas), size=POINTS, p=areas / areas.sum())
-        root, share = np.sqrt(random.random(POINTS)), random.random(POINTS)
+        chosen = random.choice(len(areas), size=count, p=areas / areas.sum())
+        root, share = np.sqrt(random.random(count)), random.random(count)
         weights = np.stack([1.0 - root, root * (1.0 - share), root * share], axis=1)[:, :, None]
         points, directions = (weights * corners[chosen]).sum(axis=1), (weights * normals[chosen]).sum(axis=1)
         directions /= np.linalg.norm(directions, axis=1)[:, None]
-        tips = points + RADIUS * (directions - np.array([0.0, 0.0, 1.0]))
+        tips = points + radius * (directions - np.array([0.0, 0.0, 1.0]))
         touched = tips[:, 2] >= sc.drop_cutter(shape, tool, tips[:, :2]) - 0.003
         return cls(points, directions, touched, float(areas.sum()))
 
