@@ -133,6 +133,15 @@ EXAMPLES = (
         },
     ),
     Example(
+        "helix-bore",
+        "Holes bored along helices",
+        "`helix-bore`: round upright holes by a tool narrower than they are, the widest from the inside out. Milling.",
+        "drilled",
+        {"kind": "helix-bore", "pitch": 0.5},
+        process={"kind": "milling"},
+        more={"tools": {"stylus": {"profile": {"kind": "flat", "diameter": 4.0}}}},
+    ),
+    Example(
         "constant-scallop",
         "Equal scallop everywhere",
         "`constant-scallop`: contours from the border inwards, as far apart as the scallop allows on every slope. Milling.",

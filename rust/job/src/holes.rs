@@ -41,6 +41,8 @@ pub(crate) struct Hole {
     pub bottom: f64,
     /// Height of its floor at the axis; none where it goes through.
     pub floor: Option<f64>,
+    /// The greatest height of its floor at the axis and beside the wall; none where it goes through.
+    pub floor_top: Option<f64>,
     /// How far its wall's triangles, which are chords, lie inside of the circle at most.
     pub chord: f64,
 }
@@ -184,7 +186,7 @@ impl Wall {
         }
         let below = |start: Vector| rays.first(start, -Vector::z(), 0.0, |_| true).map(|hit| middle - hit.distance);
         let is_floor = |z: f64| z >= self.bottom - FLOOR * self.radius;
-        let is_blind = ring(within, middle).any(|start| below(start).is_some_and(is_floor));
+        let beside_wall = ring(within, middle).filter_map(below).filter(|z| is_floor(*z)).reduce(f64::max);
         let floor = ring(BESIDE, middle).filter_map(below).fold(f64::NEG_INFINITY, f64::max);
         // under a shoulder a narrower hole goes on
         let floor = if floor.is_finite() && floor >= self.bottom - 2.0 * self.radius { floor } else { self.bottom };
@@ -195,7 +197,8 @@ impl Wall {
             radius: self.radius,
             top: self.top,
             bottom: self.bottom,
-            floor: is_blind.then_some(floor),
+            floor: beside_wall.map(|_| floor),
+            floor_top: beside_wall.map(|z| z.max(floor)),
             chord,
         })
     }

@@ -3,6 +3,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
 mod arcs;
+pub mod boring;
 pub mod budget;
 mod corners;
 mod error;

@@ -100,6 +100,8 @@ pub enum Passes {
     Flank(FlankPasses),
     /// Straight down into holes: each is checked.
     Drilling(Drilling),
+    /// Down into holes along helices about their axes: each is checked.
+    Boring(Boring),
     /// In no order that is known: what they leave of the faces where the tool can touch is checked.
     Covering {
         /// The most that may be left, mm.
@@ -184,7 +186,22 @@ pub struct Drilling {
     pub is_tapping: bool,
 }
 
-/// A hole that the tool goes down into along its axis, work coordinates, mm.
+/// How holes are bored by a tool narrower than they are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boring {
+    /// The holes, in any order.
+    pub holes: Vec<DrilledHole>,
+    /// Fall of the tip in a turn at most, mm.
+    pub pitch: f64,
+    /// Stock that is to stay on their walls, mm.
+    pub left: f64,
+    /// Whether the tool meets the material from its uncut side: on the right of a tool that turns clockwise.
+    pub is_climb: bool,
+    /// Whether the operation's feed is that of the tool's rim on the wall, and not of its axis.
+    pub feed_at_rim: bool,
+}
+
+/// A hole that the tool goes down into, work coordinates, mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrilledHole {
     /// As a person names it.
@@ -259,6 +276,7 @@ impl Expectation {
             Passes::Clearing(_)
             | Passes::Flank(_)
             | Passes::Drilling(_)
+            | Passes::Boring(_)
             | Passes::Covering { .. }
             | Passes::Unordered { .. } => &[],
         }
@@ -290,6 +308,12 @@ impl Expectation {
     pub(crate) fn drilling(&self) -> Option<&Drilling> {
         let Passes::Drilling(drilling) = &self.passes else { return None };
         Some(drilling)
+    }
+
+    /// How it bores, where it does.
+    pub(crate) fn boring(&self) -> Option<&Boring> {
+        let Passes::Boring(boring) = &self.passes else { return None };
+        Some(boring)
     }
 
     /// The triangles that it is for.

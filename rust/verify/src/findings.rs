@@ -63,6 +63,8 @@ pub enum FindingKind {
     ExtraHole,
     /// A drill goes deeper at once than a peck.
     Peck,
+    /// The tool goes along the material in climb milling and not in conventional milling, or the other way round.
+    CutDirection,
     /// A tool that clears stock engages more of it at once than it may.
     Engagement,
     /// Stock is left that the tool reaches.
@@ -213,6 +215,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::MissingHole, "missing hole"),
         (Kind::ExtraHole, "drilled where no hole is"),
         (Kind::Peck, "peck deeper than asked"),
+        (Kind::CutDirection, "climb and conventional milling exchanged"),
         (Kind::Engagement, "engagement angle too large"),
         (Kind::Uncleared, "stock not cleared"),
         (Kind::StockToLeave, "stock cut that is to be left"),

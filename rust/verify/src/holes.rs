@@ -6,14 +6,20 @@
 //!
 //! The method: `docs/concepts/drilling.md`.
 
+use crate::bored;
 use crate::expectation::{DrilledHole, Drilling};
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::SLACK;
 
-/// The hole whose axis a straight move up or down follows, of those of its operation.
+/// The hole that a move is in, of those of its operation: on its axis straight up or down, or where the hole is bored on any path.
 pub(crate) fn hole_of<'a>(segment: &Segment, subject: &Subject<'a>, limits: &Limits) -> Option<&'a DrilledHole> {
+    drilled_at(segment, subject, limits).or_else(|| bored::hole_of(segment, subject, limits))
+}
+
+/// The hole whose axis a straight move up or down follows.
+fn drilled_at<'a>(segment: &Segment, subject: &Subject<'a>, limits: &Limits) -> Option<&'a DrilledHole> {
     let (_, drilling) = drilling_of(segment, subject)?;
     let (hole, off) = nearest(drilling, segment.end)?;
     (!segment.travels() && off <= limits.unit + SLACK).then_some(hole)
@@ -23,7 +29,7 @@ pub(crate) fn hole_of<'a>(segment: &Segment, subject: &Subject<'a>, limits: &Lim
 pub(crate) fn may_wait(segment: &Segment, seconds: f64, subject: &Subject, limits: &Limits) -> bool {
     let dwell = drilling_of(segment, subject).map_or(0.0, |(_, drilling)| drilling.dwell);
     let at_bottom = |hole: &DrilledHole| (segment.end[2] - hole.bottom).abs() <= limits.unit + SLACK;
-    (seconds - dwell).abs() <= WAIT && hole_of(segment, subject, limits).is_some_and(at_bottom)
+    (seconds - dwell).abs() <= WAIT && drilled_at(segment, subject, limits).is_some_and(at_bottom)
 }
 
 /// Waits that differ by less are the same, s: texts state milliseconds.

@@ -12,7 +12,7 @@ use crate::report::Report;
 use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::{
-    clearing, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair, passes, reach,
+    bored, clearing, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair, passes, reach,
     sequence, settings, tabs, travel, unreached, walls,
 };
 
@@ -96,6 +96,7 @@ fn of_passes(
 ) -> Result<Vec<Fault>, Cancelled> {
     let mut faults = passes::faults(program, segments, assignment, subject, limits, watch)?;
     faults.extend(holes::faults(segments, subject, limits));
+    faults.extend(bored::faults(program, segments, subject, limits));
     faults.extend(covered::faults(segments, assignment, subject, limits, watch)?);
     Ok(faults)
 }

@@ -32,6 +32,7 @@
 mod assignment;
 mod blank;
 mod body;
+mod bored;
 mod bounds;
 mod clearance;
 mod clearing;
@@ -99,7 +100,7 @@ pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
 };
 pub use expectation::{
-    Clearing, Contact, DrilledHole, Drilling, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers,
+    Boring, Clearing, Contact, DrilledHole, Drilling, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers,
     OrderedPasses, Passes, TabShape,
 };
 pub use findings::{Finding, FindingKind, Severity};

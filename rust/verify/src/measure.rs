@@ -173,7 +173,7 @@ impl<'a> Walk<'a> {
             self.last = samples[1].map(|end| (tool, end));
         }
         let sampled = lowest(&found.contacts);
-        let below = self.gouge_level().min(sampled.map_or(f64::INFINITY, |s| s.touch.value - SLACK));
+        let below = self.level_of(segment).min(sampled.map_or(f64::INFINITY, |s| s.touch.value - SLACK));
         found.deepest = deepest_on_arc(bend, below, prober).or(sampled);
         found
     }
@@ -251,14 +251,19 @@ impl<'a> Walk<'a> {
         }
         let stroke = stroke_of(segment, prober.body);
         let hole = holes::hole_of(segment, self.subject, self.limits);
-        let level = hole.map_or(self.gouge_level(), |hole| holes::gouge_level(hole, self.subject, self.limits));
-        found.deepest = deepest_of(segment, level, prober);
+        found.deepest = deepest_of(segment, self.level_of(segment), prober);
         found.samples = usize::from(found.deepest.is_some());
         // a drill is next to its wall: how deep a rapid may go there is another question
         if hole.is_none() && segment.kind == SegmentKind::Rapid && segment.descends() && found.deepest.is_none() {
             found.landing = deepest(Stroke::still(stroke.to), self.limits.rapid_gap, prober);
         }
         found
+    }
+
+    /// The clearance at and below which a move is in the part, mm: in holes their walls' triangles lie on the free side.
+    fn level_of(&self, segment: &Segment) -> f64 {
+        let hole = holes::hole_of(segment, self.subject, self.limits);
+        hole.map_or(self.gouge_level(), |hole| holes::gouge_level(hole, self.subject, self.limits))
     }
 
     fn gouge_level(&self) -> f64 {

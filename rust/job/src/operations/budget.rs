@@ -24,6 +24,22 @@ pub fn of(tolerance: f64, scene: &Scene, machine: &Machine) -> Result<Budget, Pl
     })
 }
 
+/// The budget of a path along exact circles, of whose arcs ends and centres are rounded each: how far it keeps inside of them, and how
+/// far its chords may be off it where a machine has no arcs.
+///
+/// # Errors
+/// [`PlanError::Budget`]: too little is left.
+pub fn of_circles(tolerance: f64, machine: &Machine) -> Result<Budget, PlanError> {
+    let rounding = |machine: &Machine| machine.resolution_mm() * std::f64::consts::SQRT_2;
+    let kept = |machine: &Machine| (rounding(machine) - 0.9 * GOUGE).max(0.0);
+    let deviation = |machine: &Machine| tolerance - rounding(machine) - kept(machine);
+    if deviation(machine) >= LEAST_DEVIATION {
+        return Ok(Budget { deviation: deviation(machine), margin: kept(machine) });
+    }
+    let decimals = fewest_decimals(machine, |finer| deviation(finer) >= LEAST_DEVIATION);
+    Err(PlanError::Budget { tolerance, tessellation: 0.0, rounding: rounding(machine), decimals })
+}
+
 /// What tessellation and rounding leave, if that is enough to fit a path with.
 fn left(tolerance: f64, tessellation: f64, rounding: f64, inward: f64) -> Option<Budget> {
     // rounding may also go inwards: beyond what a gouge is allowed, that takes room too

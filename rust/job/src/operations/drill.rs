@@ -2,13 +2,12 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::Vector;
 use styluscam_motion::{
     Cycle, CycleKind, CycleStart, CycleStep, EventKind, Move, MoveKind, SpindleDirection, MOST_PECKS,
 };
-use styluscam_toolpath::{shortly_ordered, Air, Freedom, Pass, PathPoint, Seam, Sense};
 use styluscam_verify::{Contact, DrilledHole, Drilling, Passes};
 
+use super::at_holes::{begins, breakthrough, check_solid, check_walls, in_order, no_hole, retract_height};
 use super::facts::counted;
 use super::keys;
 use super::{
@@ -16,13 +15,10 @@ use super::{
     Planned, Serves, Spindle,
 };
 use crate::cutting::{CuttingWork, Engagement};
-use crate::holes::{holes_among, leaning_hole, Hole};
+use crate::holes::{holes_among, Hole};
 use crate::limits::GOUGE;
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys};
-
-/// Holes lean from this angle on, rad.
-const LEANS: f64 = 1e-3;
 
 /// Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
 /// cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.
@@ -184,16 +180,7 @@ impl Drill {
 
     /// Named faces that are no wall of an upright hole that the tool fits.
     fn check_named(&self, given: &PassContext<'_>, found: &[Hole], path: &str) -> Result<(), JobError> {
-        let refused =
-            |code, message: String, hint: &str| Err(JobError::document(code, format!("{path}.faces"), message, hint));
-        if let Some(face) = given.faces.iter().find(|face| !found.iter().any(|hole| hole.faces.contains(face))) {
-            if let Some(angle) = leaning_hole(given.scene, *face).filter(|angle| *angle > LEANS) {
-                let message = format!("Face{face} is a hole whose axis leans by {:.2} degrees", angle.to_degrees());
-                return refused("leaning-hole", message, "turn the part with setup.up, so that the hole is upright");
-            }
-            let message = format!("Face{face} is no wall of a round upright hole that is open above");
-            return refused("no-hole", message, "name walls of holes only; see `styluscam part show`");
-        }
+        check_walls(given, found, path)?;
         let shape = DrillShape::of(given.body);
         match found.iter().find(|hole| !self.fits(hole, shape)) {
             Some(hole) => Err(self.misfit(hole, shape, path)),
@@ -262,10 +249,7 @@ impl OperationKind for Drill {
     }
 
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
-        if context.scene.sheet.is_some() {
-            let message = "holes are drilled into solids, and this job forms a sheet";
-            return Err(JobError::document("conflict", context.path.clone(), message, "remove setup.sheet"));
-        }
+        check_solid(context)?;
         let body = context.tool.body(None);
         let given = PassContext {
             scene: context.scene,
@@ -276,6 +260,7 @@ impl OperationKind for Drill {
             bottom: context.common.z_bottom,
             body: &body,
             to_leave: [0.0; 2],
+            direction: context.common.direction,
         };
         let (holes, others) = self.holes(&given);
         let skipped = others.len();
@@ -310,11 +295,7 @@ impl OperationKind for Drill {
             let wider = |hole: &&Hole| (hole.diameter() - shape.diameter).abs();
             return Err(match found.iter().min_by(|a, b| wider(a).total_cmp(&wider(b))) {
                 Some(hole) => self.misfit(hole, shape, path),
-                None => {
-                    let message = "none of the faces is the wall of a round upright hole that is open above";
-                    let hint = "select walls of holes; see `styluscam part show`";
-                    JobError::document("no-hole", format!("{path}.faces"), message, hint)
-                }
+                None => no_hole(path),
             });
         }
         for hole in fitting {
@@ -437,36 +418,6 @@ impl Drill {
     }
 }
 
-/// Where material may begin over a hole, mm: its wall, or the stock that the job states.
-fn begins(hole: &Hole, given: &PassContext<'_>) -> f64 {
-    let is_stated = given.scene.stock_words.is_some();
-    hole.top.max(if is_stated { given.top } else { hole.top })
-}
-
-/// The holes in an order with short ways across, and their length, mm.
-fn in_order(context: &Context<'_>, holes: &[Hole]) -> Result<(Vec<Hole>, f64), JobError> {
-    let pass = |(number, hole): (usize, &Hole)| {
-        let tip = Vector::new(hole.at[0], hole.at[1], context.scene.clearance);
-        let point = PathPoint { tip, normal: Vector::z(), selected: true, triangle: number as u32 };
-        Pass { points: vec![point], closed: false, group: 0 }
-    };
-    let passes: Vec<Pass> = holes.iter().enumerate().map(pass).collect();
-    let air = Air { height: context.scene.clearance, along: 0.0 };
-    let sense = (Sense::Forward, Seam::Nearest);
-    let ordered = shortly_ordered(passes, sense, Freedom::WithinGroups, &air, context.watch)?;
-    let numbers = ordered.passes.iter().filter_map(|pass| pass.points.first());
-    let holes = numbers.filter_map(|point| holes.get(point.triangle as usize).cloned()).collect();
-    Ok((holes, ordered.between[1]))
-}
-
-fn breakthrough() -> f64 {
-    0.5
-}
-
-fn retract_height() -> f64 {
-    1.0
-}
-
 fn diameter_tolerance() -> f64 {
     0.01
 }
@@ -479,7 +430,7 @@ mod tests {
     const SHAPE: DrillShape = DrillShape { diameter: 5.0, point: 1.5 };
 
     fn hole(floor: Option<f64>) -> Hole {
-        Hole { faces: vec![7], at: [0.0; 2], radius: 2.5, top: 12.0, bottom: 4.0, floor, chord: 0.0 }
+        Hole { faces: vec![7], at: [0.0; 2], radius: 2.5, top: 12.0, bottom: 4.0, floor, floor_top: floor, chord: 0.0 }
     }
 
     fn drill(depth: HoleDepth) -> Drill {

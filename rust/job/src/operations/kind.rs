@@ -5,7 +5,7 @@ use styluscam_geometry::ToolBody;
 use styluscam_motion::{Cycle, EventKind, Move};
 use styluscam_verify::{Contact, Layers, Passes};
 
-use super::{Areas, Context, Effort, Fact, SurfaceFacts, Tabs};
+use super::{Areas, Context, Direction, Effort, Fact, SurfaceFacts, Tabs};
 use crate::cutting::{CuttingWork, Engagement};
 use crate::numbers::shown;
 use crate::{JobError, OperationKeys, Scene};
@@ -133,6 +133,8 @@ pub struct PassContext<'a> {
     pub body: &'a ToolBody,
     /// Stock that stays on walls, and under the tool, mm.
     pub to_leave: [f64; 2],
+    /// In which direction its passes are run.
+    pub direction: Direction,
 }
 
 /// What is known of a kind without its keys.

@@ -13,6 +13,7 @@ use styluscam_verify::Contact;
 use crate::tagged::{self, kinds, Family};
 use crate::MAIN_CHANNEL;
 
+mod at_holes;
 mod before;
 pub(crate) mod budget;
 mod clears;
@@ -53,6 +54,7 @@ kinds! {
         pocket::Pocket = "pocket",
         flank::Flank = "flank",
         drill::Drill = "drill",
+        helix_bore::HelixBore = "helix-bore",
         constant_scallop::ConstantScallop = "constant-scallop",
         pencil::Pencil = "pencil",
     }

@@ -5,7 +5,7 @@ use styluscam_motion::Watch;
 use styluscam_post::Machine;
 use styluscam_verify::Passes;
 
-use super::{Operation, PassContext, Serves, StarterPasses};
+use super::{Direction, Operation, PassContext, Serves, StarterPasses};
 use crate::tests::setup::{frustum, machine, milling};
 use crate::{JobDocument, Scene, Setting};
 
@@ -62,8 +62,8 @@ fn every_kind_plans_and_says_what_it_planned() {
     let (part, watch) = (frustum(), Watch::default());
     let (upright, turning) = (machine(), Machine::shipped("linuxcnc-trunnion").unwrap());
     // a pocket takes a minute with a tool this small, and a frustum has neither holes nor concave edges:
-    // tests/python/test_pocket_operation.py, test_drill.py and test_pencil.py plan those
-    for kind in kinds().filter(|kind| !["pocket", "drill", "pencil"].contains(&Operation::NAMES[*kind])) {
+    // tests/python/test_pocket_operation.py, test_drill.py, test_helix_bore.py and test_pencil.py plan those
+    for kind in kinds().filter(|kind| !["pocket", "drill", "helix-bore", "pencil"].contains(&Operation::NAMES[*kind])) {
         let job = job(kind).unwrap();
         let scene = Scene::new(&job, crate::MAIN_CHANNEL, &part).unwrap();
         let machine = if job.operations[0].kind().leans() { &turning } else { &upright };
@@ -87,6 +87,7 @@ fn every_kind_plans_and_says_what_it_planned() {
             bottom: None,
             body: &body,
             to_leave: [0.0; 2],
+            direction: Direction::default(),
         };
         match job.operations[0].kind().passes(&given) {
             Passes::Ordered(passes) => assert!(passes.pitch.largest() > 0.0, "{name}"),
@@ -94,6 +95,7 @@ fn every_kind_plans_and_says_what_it_planned() {
             Passes::Clearing(clearing) => assert!(clearing.angle > 0.0 && clearing.pitch.largest() > 0.0, "{name}"),
             Passes::Flank(flank) => assert!(flank.max_error > 0.0 && flank.faces.len() == 4, "{name}"),
             Passes::Drilling(drilling) => assert!(!drilling.holes.is_empty(), "{name}"),
+            Passes::Boring(boring) => assert!(!boring.holes.is_empty(), "{name}"),
             Passes::Covering { scallop } => assert!(scallop > 0.0, "{name}"),
             Passes::Unordered { reason } => {
                 assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");

@@ -97,6 +97,7 @@ fn with_passes<T>(
         bottom: section.common.z_bottom,
         body: &section.touching(tool).body(scene.sheet.as_ref()),
         to_leave: section.common.stock_to_leave(),
+        direction: section.common.direction,
     })
 }
 
@@ -108,6 +109,7 @@ pub fn descent_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &Opera
         | Passes::Clearing(_)
         | Passes::Flank(_)
         | Passes::Drilling(_)
+        | Passes::Boring(_)
         | Passes::Covering { .. }
         | Passes::Unordered { .. } => None,
     }

@@ -56,3 +56,24 @@ pub(crate) static RAPID_IN_HOLE: FaultKind = FaultKind::in_text(
     },
     "come down at a feed from there",
 );
+pub(crate) static CUT_DIRECTION: FaultKind = FaultKind::in_text(
+    FindingKind::CutDirection,
+    |fault| {
+        let [found, asked] = if fault.limit() > 0.5 { ["conventional", "climb"] } else { ["climb", "conventional"] };
+        format!("this move is {found} milling, and the operation asks for {asked} milling")
+    },
+    "swap G2 and G3, turn the spindle the other way, or post the operation again",
+);
+pub(crate) static WALL_SKIPPED: FaultKind = FaultKind::on_part(
+    FindingKind::Excess,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("on {value:.3} mm of height no turn comes up to the hole's wall, and a turn falls by {limit:.3} mm")
+    },
+    "correct this coordinate, or post the operation again",
+);
+pub(crate) static CORE_LEFT: FaultKind = FaultKind::on_part(
+    FindingKind::Uncleared,
+    |fault| format!("{:.3} mm of stock are left between the tool's circles in this hole", fault.value()),
+    "post the operation again: a helix is missing, or lies too far from the next",
+);

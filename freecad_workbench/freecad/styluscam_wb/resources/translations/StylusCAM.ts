@@ -68,6 +68,12 @@ Range: above 0 to 1000 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Diameter of the holes that are bored, mm; when left out, all that are wider than the tool.
+Range: above 0 to 10000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Direction from a loop's middle in which it begins, degrees from +X; where it is nearest when left out.
 Range: -360 to 360 deg
 0 or empty: not stated</source>
@@ -76,6 +82,12 @@ Range: -360 to 360 deg
     <message>
         <source>Direction of rows from +X, degrees.
 Range: -360 to 360 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between helices, mm at most, where the tool is too narrow to clear the hole in one; its radius when left out.
+Range: 0.01 to 100 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -116,6 +128,11 @@ As JSON
         <source>Faces that the tool keeps away from: "rest" (all others), or names: ["Face7"].
 As JSON
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fall of a turn, mm at most: turns share the depth evenly.
+Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -323,6 +340,12 @@ Range: above 0 to 10 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Of what feeds.cut is the feed.
+rim: Of the tool's rim on the wall, as tables of cutting data state it: the axis is slower by (D - d) / D.
+axis: Of the tool's axis, as it is posted: the rim is faster.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>One more level at every level floor that no other level stands on: shoulders and pockets' floors at their exact height.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -341,6 +364,10 @@ flank: Mills ruled surfaces, such as blades and twisted walls, with the side of 
 is a cylinder or a cone, with a flat end or a round one.
 drill: Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
 cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.
+helix-bore: Bores the round upright holes among the selected faces with a tool narrower than they are: down along a helix with a level turn at its
+end, back to the axis and up; in several, from the inside out, where one would leave a core. Turns are full circles, or short lines on
+machines without these arcs. Of faces = "all" wider holes are taken; named faces must all be walls of such holes. All directions but
+conventional are climb.
 constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.
 pencil: Passes along concave edges and narrow fillets, where the tool touches two faces at once: they take what wider steps and a larger
 tool leave in the corners.</source>
@@ -446,6 +473,11 @@ Range: 6 to 175 deg</source>
 0 or empty: not stated
 left: To the left, seen along the rails with the second above the first.
 right: To the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The steepest helix that the tool withstands, degrees; steeper ones are refused.
+Range: 0.1 to 60 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -786,6 +818,13 @@ Range: 1 to 90 deg</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Bores the round upright holes among the selected faces with a tool narrower than they are: down along a helix with a level turn at its
+end, back to the axis and up; in several, from the inside out, where one would leave a core. Turns are full circles, or short lines on
+machines without these arcs. Of faces = "all" wider holes are taken; named faces must all be walls of such holes. All directions but
+conventional are climb.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Boundary</source>
         <translation type="unfinished"></translation>
     </message>
@@ -981,6 +1020,12 @@ Range: above 0 to 1000 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Diameter of the holes that are bored, mm; when left out, all that are wider than the tool.
+Range: above 0 to 10000 mm
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Diameter of the shank, mm; the base's when left out.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1013,6 +1058,12 @@ Range: -360 to 360 deg
     <message>
         <source>Direction of rows from +X, degrees.
 Range: -360 to 360 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Distance between helices, mm at most, where the tool is too narrow to clear the hole in one; its radius when left out.
+Range: 0.01 to 100 mm
+0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1166,10 +1217,19 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Fall of a turn, mm at most: turns share the depth evenly.
+Range: 0.01 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Feed along helices and ramps, mm/min; that of plunges when left out. It is lower where they would take more stock in a minute than the
 passes do.
 Range: 0.1 to 100000 mm/min
 0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Feed at</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1267,6 +1327,14 @@ Range: 0.001 to 20 mm/rev</source>
     </message>
     <message>
         <source>Helices.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Helix bore</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Helix distance</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1582,6 +1650,10 @@ Range: 0 to 1000 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Max ramp</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Max unreached</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1688,6 +1760,20 @@ Range: above 0 to 10 mm
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Of the tool's axis, as it is posted: the rim is faster.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Of the tool's rim on the wall, as tables of cutting data state it: the axis is slower by (D - d) / D.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Of what feeds.cut is the feed.
+rim: Of the tool's rim on the wall, as tables of cutting data state it: the axis is slower by (D - d) / D.
+axis: Of the tool's axis, as it is posted: the rim is faster.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
 wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.</source>
         <translation type="unfinished"></translation>
@@ -1711,6 +1797,10 @@ flank: Mills ruled surfaces, such as blades and twisted walls, with the side of 
 is a cylinder or a cone, with a flat end or a round one.
 drill: Drills, taps or bores the round upright holes among the selected faces, each along its axis from its own top. Machines without the
 cycle get its moves. Of faces = "all" only holes of the tool's diameter are taken; named faces must all be walls of such holes.
+helix-bore: Bores the round upright holes among the selected faces with a tool narrower than they are: down along a helix with a level turn at its
+end, back to the axis and up; in several, from the inside out, where one would leave a core. Turns are full circles, or short lines on
+machines without these arcs. Of faces = "all" wider holes are taken; named faces must all be walls of such holes. All directions but
+conventional are climb.
 constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.
 pencil: Passes along concave edges and narrow fillets, where the tool touches two faces at once: they take what wider steps and a larger
 tool leave in the corners.</source>
@@ -1775,6 +1865,10 @@ tool leave in the corners.</source>
     </message>
     <message>
         <source>Pencil</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pitch</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2319,6 +2413,11 @@ right: To the right.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The steepest helix that the tool withstands, degrees; steeper ones are refused.
+Range: 0.1 to 60 deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>The tool bridges faces by more than it may: it is less curved than they are.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2655,6 +2754,10 @@ stock: All that the tool reaches, around the part too: roughing.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>axis</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>back</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2808,6 +2911,10 @@ stock: All that the tool reaches, around the part too: roughing.</source>
     </message>
     <message>
         <source>helix</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>helix-bore</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -3020,6 +3127,10 @@ stock: All that the tool reaches, around the part too: roughing.</source>
     </message>
     <message>
         <source>right</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>rim</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
