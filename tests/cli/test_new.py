@@ -67,6 +67,12 @@ def parts(tmp_path_factory):
     return folder
 
 
+def of(job, name):
+    """The operation of a name."""
+    (found,) = [operation for operation in sc.Job.read(job).document["operations"] if operation["id"] == name]
+    return found
+
+
 def coarser(job):
     """The job with fewer levels, rows and triangles: that it runs is asked here, not what it makes."""
     text = job.read_text()
@@ -98,7 +104,7 @@ def test_feeds_and_spindle_are_for_the_material_with_the_source_beside_them(part
         {"kind": "flat", "diameter": 10.0, "tip_flat": 0.0}, 2, "carbide"
     )  # fmt: skip
     # 230 m/min and 0.08 mm per tooth: 7321 rev/min and 1171 mm/min, rounded down
-    operation = document["operations"][0]
+    operation = of(job, "walls")
     assert (operation["spindle"]["rpm"], operation["feeds"]["cut"], operation["feeds"]["plunge"]) == (
         7300.0,
         1160.0,
@@ -123,9 +129,12 @@ def test_a_table_of_one_s_own_is_named_in_the_job(parts, cli):
     assert document["process"] == {
         "kind": "milling", "material": "our brass", "cutting_data": "shop.toml", "max_unreached": 0.1
     }  # fmt: skip
-    operation = document["operations"][0]
+    operation = of(job, "walls")
     assert (operation["spindle"]["rpm"], operation["feeds"]["cut"]) == (60.0, 6.0)
     assert "# - source: the shop's table" in job.read_text()
+    # the table states nothing for roughing: it is left out, and why
+    assert [operation["kind"] for operation in document["operations"]] == ["z-level", "zig-zag"]
+    assert 'no operation "roughing"' in job.read_text()
 
 
 def test_an_unknown_material_lists_the_known_ones(parts, cli):
@@ -140,9 +149,9 @@ def test_new_job_runs_as_it_stands_where_levels_end_at_jumps(parts, cli):
     assert cli("new", parts / "filleted bracket.step", "--out", job).code == 0
     ran = cli("run", job, "--json")
     assert ran.code == 0, ran.out[-2000:]
-    operation = ran.json["summary"]["operations"][0]
+    (operation,) = [operation for operation in ran.json["summary"]["operations"] if operation["id"] == "walls"]
     assert operation["facts"][1]["value"] >= 27
-    assert ran.json["summary"]["excess_max"] <= sc.Job.read(job).document["operations"][0]["tolerance"]
+    assert ran.json["summary"]["excess_max"] <= of(job, "walls")["tolerance"]
 
 
 @pytest.mark.parametrize("name", ["cone_cup", "cap_r60", "vwaf", "pyramid"])
@@ -321,13 +330,13 @@ def test_the_tool_fits_the_fillets(parts, cli):
     ran = cli("new", parts / "ribs.step", "--force", "--json")
     assert ran.code == 0, ran.out
     document = sc.Job.read(parts / "ribs.toml").document
-    (tool,) = document["tools"].values()
+    tool = document["tools"]["cutter"]
     assert tool["profile"] == {**tool["profile"], "kind": "ball", "diameter": 8.0}
     assert "a radius of 4.0" in " ".join(ran.json["reasons"])
     # the upright sides in levels, the rest in rows, no face in both
-    named = [operation["faces"] for operation in document["operations"]]
-    assert [operation["kind"] for operation in document["operations"]] == ["z-level", "zig-zag"]
-    assert not set(named[0]) & set(named[1])
+    assert [operation["kind"] for operation in document["operations"]] == ["pocket", "z-level", "zig-zag"]
+    _, walls, floors = (operation.get("faces") for operation in document["operations"])
+    assert not set(walls) & set(floors)
 
 
 def splined(height):
@@ -355,12 +364,12 @@ def test_a_curved_upright_wall_is_a_wall(parts, cli):
     assert ran.code == 0, ran.out
     assert "cannot be reached" not in " ".join(ran.json["reasons"])
     document = sc.Job.read(parts / "splined.toml").document
-    (tool,) = document["tools"].values()
+    tool = document["tools"]["cutter"]
     assert document["setup"]["up"] == "+z" and tool["profile"]["kind"] == "flat"
-    assert [len(operation["faces"]) for operation in document["operations"]] == [1, 1]
+    assert [len(operation["faces"]) for operation in document["operations"][1:]] == [1, 1]
     done = cli("run", parts / "splined.toml", "--json")
     assert done.code == 0, done.out[-2000:]
-    walls, _ = done.json["summary"]["operations"]
+    _, walls, _ = done.json["summary"]["operations"]
     assert walls["wall_angle_max_deg"] == pytest.approx(90.0, abs=1e-6)
     assert walls["reached"][0]["contact"] > 0.99 * sum(v for k, v in walls["reached"][0].items() if k != "face")
 
@@ -377,6 +386,64 @@ def test_a_hole_across_is_named(parts, cli):
     (stated,) = [reason for reason in ran.json["reasons"] if "lies under other faces" in reason]
     (named,) = re.findall(r"Face\d+", stated)
     assert f"#   {named}: cylinder" in (parts / "across.toml").read_text(encoding="utf-8")
+
+
+def test_a_plate_is_roughed_drilled_and_finished(cli, tmp_path):
+    """Holes of three diameters, each with its own drill; the program removes the stock, by the verifier's account."""
+    job = tmp_path / "drilled.toml"
+    made = cli("new", FIXTURES / "drilled.step", "--out", job, "--json")
+    assert made.code == 0, made.out
+    document = sc.Job.read(job).document
+    kinds = [operation["kind"] for operation in document["operations"]]
+    assert kinds[0] == "pocket" and kinds.count("drill") == 3 and kinds[-1] in ("z-level", "zig-zag")
+    assert kinds == sorted(kinds, key=["pocket", "drill", "z-level", "zig-zag"].index)
+    assert document["setup"]["stock"]["kind"] == "box" and document["setup"]["stock"]["top"] > 0.0
+    rough = document["operations"][0]
+    assert rough["radial_stock_to_leave"] > 0.0 < rough["axial_stock_to_leave"]
+    drills = {o["id"]: document["tools"][o["tool"]]["profile"]["diameter"] for o in document["operations"][1:4]}
+    assert drills == {"holes-5": 5.0, "holes-6.8": 6.8, "holes-11": 11.0}
+    # what is drilled is not roughed, nor is the hole across
+    drilled = {face for operation in document["operations"][1:4] for face in operation["faces"]}
+    assert len(drilled) == 9 and not drilled & set(rough["faces"])
+    # every operation states why it is there, in the job and for scripts
+    text = job.read_text()
+    assert [operation["id"] for operation in made.json["operations"]] == [o["id"] for o in document["operations"]]
+    for operation in made.json["operations"]:
+        assert operation["reasons"]
+        start = text.index(f'id = "{operation["id"]}"')
+        assert "# - " + operation["reasons"][0][:30] in text[start : start + 200]
+    ran = cli("run", job, "--json")
+    assert ran.code == 0, ran.out[-2000:]
+    assert ran.json["report"]["ok"]
+
+
+def test_holes_deeper_than_three_diameters_are_pecked(parts, cli):
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+
+    def hole(x, radius, depth):
+        axis = gp_Ax2(gp_Pnt(x, 20.0, 30.0 - depth), gp_Dir(0.0, 0.0, 1.0))
+        return BRepPrimAPI_MakeCylinder(axis, radius, depth).Shape()
+
+    block = BRepPrimAPI_MakeBox(60.0, 40.0, 30.0).Shape()
+    for x, radius, depth in ((10.0, 2.0, 11.9), (30.0, 2.5, 30.0), (50.0, 1.615, 8.0)):
+        block = BRepAlgoAPI_Cut(block, hole(x, radius, depth)).Shape()
+    write_step(block, parts / "deep.step")
+    job = parts / "deep.toml"
+    assert cli("new", parts / "deep.step", "--out", job, "--force").code == 0
+    cycles = {
+        o["id"]: (o["cycle"]["kind"], o["cycle"].get("peck"))
+        for o in sc.Job.read(job).document["operations"]
+        if o["kind"] == "drill"
+    }
+    assert cycles == {"holes-3.2": ("drill", None), "holes-4": ("drill", None), "holes-5": ("peck", 5.0)}
+    # 3.23 mm: no drill has that size
+    assert of(job, "holes-3.2")["diameter_tolerance"] == pytest.approx(0.03, abs=2e-3)
+    assert "ream or bore" in job.read_text() and "a cone on flat floors" in job.read_text().replace("\n#  ", "")
+    coarser(job)
+    ran = cli("run", job, "--json")
+    assert ran.code == 0, ran.out[-2000:]
 
 
 def is_foot(edge):

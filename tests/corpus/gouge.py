@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from cycles import expanded
 
 import gcode
 from brute_force import least_on
@@ -63,10 +64,11 @@ class Checked:
 
 def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, family: Family, seed: int) -> Checked:
     """Checks a text; `corners` (T, 3, 3) in work coordinates, `allowed` the depth that is none."""
+    text, line_of = expanded(text)
     program = gcode.read(text, family)
     found = Checked()
     if program.refused is not None:
-        found.refused = f"line {program.refused[0]}: {program.refused[1]}"
+        found.refused = f"line {line_of[program.refused[0] - 1]}: {program.refused[1]}"
         return found
     moves = [move for move in program.moves if move.placed]
     feeds = [move for move in moves if move.kind != "rapid"]
@@ -92,7 +94,7 @@ def checked(text: str, job: dict[str, Any], corners: Floats, allowed: float, fam
         worst = int(depths.argmin())
         if depths[worst] < -allowed and -depths[worst] > found.deepest:
             tip = tips[of_tool][worst]
-            found.deepest, found.line = float(-depths[worst]), int(lines[of_tool][worst])
+            found.deepest, found.line = float(-depths[worst]), line_of[int(lines[of_tool][worst]) - 1]
             found.at = (float(tip[0]), float(tip[1]), float(tip[2]))
     found.touching = near / max(1, int(feeding.sum()))
     return found

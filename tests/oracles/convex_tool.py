@@ -189,4 +189,7 @@ def _pieces(profile: dict[str, Any]) -> tuple[list[Piece], tuple[float, float]]:
         top = (radius, foot[1] + (radius - foot[0]) * math.tan(slope))
         tip: list[Piece] = [Round((0.0, ball), ball, 0.0, slope)] if ball > 0 else []
         return [*tip, Line(foot, top)], top
+    if kind == "v" and not profile.get("tip_diameter", 0.0):
+        top = (radius, radius / math.tan(math.radians(0.5 * profile["angle_deg"])))
+        return [Line((0.0, 0.0), top)], top
     raise ValueError(f"no meridian for {kind}")

@@ -66,10 +66,19 @@ def new(
     Job.check(made.text)
     files.write_whole(path, made.text)
     if json:
-        console.say_json({"written": [str(path)], "notes": list(arrays.notes), "reasons": made.reasons})
+        operations = [{"id": name, "reasons": reasons} for name, reasons in made.operations]
+        document = {
+            "written": [str(path)],
+            "notes": list(arrays.notes),
+            "reasons": made.reasons,
+            "operations": operations,
+        }
+        console.say_json(document)
     elif not quiet:
         console.fields([("note", note) for note in arrays.notes])
         console.fields([("" if number else "because", reason) for number, reason in enumerate(made.reasons)])
+        for name, reasons in made.operations:
+            console.fields([("" if number else name, reason) for number, reason in enumerate(reasons)])
         console.say(f"written: {shown_path(path)}")
         console.say(f"next:    styluscam run {shlex.quote(shown_path(path))}")
     with progress.shown(not (json or quiet)) as report:

@@ -375,6 +375,8 @@ class Starter(NamedTuple):
     """TOML, commented."""
     reasons: list[str]
     """Sentences: what the part is taken for, and what follows from it."""
+    operations: list[tuple[str, list[str]]]
+    """Its operations in order, by their names, each with the sentences that state why it is there."""
 
 
 def starter_job(
@@ -385,7 +387,7 @@ def starter_job(
     material: str | None = None,
     cutting_data: tuple[str, str] | None = None,
 ) -> Starter:
-    """A commented job for a part: formed where it is a sheet that can be, else milled; it runs as it stands.
+    """A commented job for a part: formed where it is a sheet that can be, else milled from stock to finish; it runs as it stands.
 
     Args:
         arrays: the part.

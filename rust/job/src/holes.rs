@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use nalgebra::Matrix3;
-use styluscam_geometry::Vector;
+use styluscam_geometry::{Bvh, Mesh, Vector};
 
 use crate::body::Rays;
 use crate::Scene;
@@ -61,20 +61,20 @@ impl Hole {
 
 /// The holes among some faces, in the order of their lowest faces; faces that are no wall of one are left out, as are holes that
 /// are covered from above.
-pub(crate) fn holes_among(scene: &Scene, faces: &[u32]) -> Vec<Hole> {
+pub(crate) fn holes_among((mesh, bvh): (&Mesh, &Bvh), faces: &[u32]) -> Vec<Hole> {
     let mut triangles: BTreeMap<u32, Vec<usize>> = faces.iter().map(|face| (*face, Vec::new())).collect();
-    for (triangle, face) in scene.mesh.faces().iter().enumerate() {
+    for (triangle, face) in mesh.faces().iter().enumerate() {
         triangles.entry(*face).and_modify(|of| of.push(triangle));
     }
     let mut walls: Vec<Wall> = Vec::new();
     for (face, triangles) in &triangles {
-        let Some(wall) = Wall::of(scene, *face, triangles) else { continue };
+        let Some(wall) = Wall::of(mesh, *face, triangles) else { continue };
         match walls.iter_mut().find(|known| known.goes_on_in(&wall)) {
             Some(known) => known.join(wall),
             None => walls.push(wall),
         }
     }
-    let rays = Rays::new(&scene.mesh, &scene.bvh);
+    let rays = Rays::new(mesh, bvh);
     walls.into_iter().filter(Wall::is_whole).filter_map(|wall| wall.hole(&rays)).collect()
 }
 
@@ -118,8 +118,7 @@ struct Wall {
 }
 
 impl Wall {
-    fn of(scene: &Scene, face: u32, triangles: &[usize]) -> Option<Self> {
-        let mesh = &scene.mesh;
+    fn of(mesh: &Mesh, face: u32, triangles: &[usize]) -> Option<Self> {
         if triangles.is_empty() || !triangles.iter().all(|triangle| mesh.is_upright(*triangle)) {
             return None;
         }

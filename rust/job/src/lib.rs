@@ -87,7 +87,7 @@ pub use shapes::{shapes, standing, Shape, ShapeKind, Travel};
 pub use shaping::{
     is_shaped, shaped, AddendumEnd, AddendumKind, AddendumSection, Deviation, MeshPair, SpringbackSection, Stages,
 };
-pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterPart};
+pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterOperation, StarterPart};
 pub use stock::{BoxStock, CylinderStock, StockSection};
 pub use summary::Summary;
 pub use up_axis::UpAxis;

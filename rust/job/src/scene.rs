@@ -94,6 +94,11 @@ impl Scene {
         (0..selected.len()).filter(|t| selected[*t]).map(slope).fold(0.0, f64::max)
     }
 
+    /// Its triangles with their index.
+    pub(crate) fn solid(&self) -> (&Mesh, &Bvh) {
+        (&self.mesh, &self.bvh)
+    }
+
     /// Height of the part's lowest point, mm.
     pub(crate) fn foot(&self) -> f64 {
         self.mesh.bounds().0.z

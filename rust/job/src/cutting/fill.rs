@@ -76,7 +76,11 @@ fn at_speed(section: &OperationSection, limits: MachineLimits) -> MachineLimits 
     MachineLimits { min_rpm: rpm.or(limits.min_rpm), max_rpm: rpm.or(limits.max_rpm), ..limits }
 }
 
-fn data_of(
+/// What the table states for an operation with its tool and material.
+///
+/// # Errors
+/// As those of [`with_cutting_data`].
+pub fn data_of(
     section: &OperationSection,
     index: usize,
     (tool, material): (&Tool, &str),

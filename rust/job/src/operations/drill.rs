@@ -152,8 +152,20 @@ impl DrillShape {
 impl Drill {
     pub(super) const ABOUT: About = About {
         purpose: "for round upright holes",
-        serves: Serves::OnRequest,
-        starter: |_| "cycle = { kind = \"drill\" }  # or peck, chip-break, tap, bore\n".to_owned(),
+        serves: Serves::Holes,
+        starter: |passes| {
+            let cycle = match passes.peck {
+                Some(peck) => format!("{{ kind = \"peck\", peck = {peck:?} }}"),
+                None => "{ kind = \"drill\" }".to_owned(),
+            };
+            let wider = (passes.wider > 0.0).then(|| {
+                format!(
+                    "diameter_tolerance = {:?}  # the holes are so much wider: they are reamed or bored\n",
+                    passes.wider
+                )
+            });
+            format!("cycle = {cycle}  # or drill, peck, chip-break, tap, bore\n{}", wider.unwrap_or_default())
+        },
     };
 
     /// Whether a hole is as wide as the tool, or wider by no more than the tolerance.
@@ -175,7 +187,7 @@ impl Drill {
     /// The holes that are drilled, and those of another diameter.
     fn holes(&self, given: &PassContext<'_>) -> (Vec<Hole>, Vec<Hole>) {
         let shape = DrillShape::of(given.body);
-        holes_among(given.scene, given.faces).into_iter().partition(|hole| self.fits(hole, shape))
+        holes_among(given.scene.solid(), given.faces).into_iter().partition(|hole| self.fits(hole, shape))
     }
 
     /// Named faces that are no wall of an upright hole that the tool fits.
@@ -285,7 +297,7 @@ impl OperationKind for Drill {
     }
 
     fn check_part(&self, given: &PassContext<'_>, are_named: bool, path: &str) -> Result<(), JobError> {
-        let found = holes_among(given.scene, given.faces);
+        let found = holes_among(given.scene.solid(), given.faces);
         let shape = DrillShape::of(given.body);
         if are_named {
             self.check_named(given, &found, path)?;

@@ -155,17 +155,25 @@ pub enum Serves {
     Walls,
     /// Floors and gentle slopes of solids.
     Floors,
+    /// Stock over solids, before they are finished.
+    Stock,
+    /// Round upright holes.
+    Holes,
     /// Nothing: it is there for who asks for it.
     OnRequest,
 }
 
 /// How a starter job's passes lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StarterPasses {
     /// Distance between passes, mm.
     pub pitch: f64,
     /// Direction of straight passes from X, degrees.
     pub angle_deg: f64,
+    /// Depth of a peck of holes that are too deep for one, mm.
+    pub peck: Option<f64>,
+    /// By how much holes are wider than the tool, mm.
+    pub wider: f64,
 }
 
 /// A planned operation.

@@ -118,7 +118,7 @@ pub struct Pocket {
 impl Pocket {
     pub(super) const ABOUT: About = About {
         purpose: "for clearing stock with a bounded engagement angle",
-        serves: Serves::OnRequest,
+        serves: Serves::Stock,
         starter: |passes| {
             format!(
                 "step = {{ height = {:?} }}    # distance between levels\nengagement_deg = 60.0      # largest engagement \

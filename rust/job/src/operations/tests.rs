@@ -12,7 +12,7 @@ use crate::{JobDocument, Scene, Setting};
 /// A milling job of one operation of a kind, with the lines that a starter job gives it.
 fn job(kind: usize) -> Result<JobDocument, crate::JobError> {
     let (name, about) = Operation::ABOUT[kind];
-    let keys = (about.starter)(StarterPasses { pitch: 1.0, angle_deg: 0.0 });
+    let keys = (about.starter)(StarterPasses { pitch: 1.0, ..StarterPasses::default() });
     crate::from_toml(&milling(&format!("kind = \"{name}\"\n{keys}")))
 }
 
@@ -29,14 +29,14 @@ fn the_starter_lines_of_every_kind_make_a_job() {
         let job = job(kind).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(job.operations[0].operation.name(), name);
         assert!(!about.purpose.is_empty(), "{name} does not say what it is for");
-        let lines = (about.starter)(StarterPasses { pitch: 1.0, angle_deg: 0.0 });
+        let lines = (about.starter)(StarterPasses { pitch: 1.0, ..StarterPasses::default() });
         assert!(lines.lines().all(|line| line.contains('#')), "{name}: a line of the starter job has no comment");
     }
 }
 
 #[test]
-fn one_kind_serves_walls_and_one_serves_floors() {
-    for serves in [Serves::Walls, Serves::Floors] {
+fn one_kind_serves_each_work_of_a_starter_job() {
+    for serves in [Serves::Walls, Serves::Floors, Serves::Stock, Serves::Holes] {
         assert_eq!(Operation::ABOUT.iter().filter(|(_, about)| about.serves == serves).count(), 1, "{serves:?}");
     }
 }

@@ -2,7 +2,11 @@
 
 use styluscam_geometry::{Bvh, Frame, Mesh};
 
+use super::drilling::drilling;
 use super::part::StarterPart;
+use super::roughing::{roughing, Allowances};
+use super::work::Work;
+use super::workable::{covered, workable};
 use super::{operations, sizes};
 use crate::body::{Body, FaceLook, Shell, Side, Thickness};
 use crate::UpAxis;
@@ -26,10 +30,10 @@ pub struct Choice {
     pub up: UpAxis,
     /// Thickness of the sheet, mm; none: milling.
     pub sheet: Option<f64>,
-    /// Kind and diameter of the tool, mm.
-    pub tool: sizes::Cutter,
+    /// By how much the stock of what is milled is larger than the part.
+    pub stock: Option<Allowances>,
     /// In order.
-    pub operations: Vec<operations::Work>,
+    pub operations: Vec<Work>,
     /// Share of the faces that the tool may be unable to get to, where that is more than usual.
     pub max_unreached: Option<f64>,
     /// Whether faces are named that partly face down.
@@ -166,8 +170,8 @@ fn form(found: Formed, thickness: Option<f64>, mut reasons: Vec<String>) -> Choi
         reasons,
         up,
         sheet: Some(thickness),
+        stock: None,
         operations: vec![operations::forming(&turned.mesh, &looks, &tool)],
-        tool,
         max_unreached: None,
         allow_undercuts: false,
         bounds: bounds(&turned.mesh),
@@ -180,17 +184,29 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
     let turned = if up == UpAxis::PlusZ { lying } else { Turned::new(&lying.mesh, up) };
     let body = turned.body();
     let looks = body.hollows();
-    let milled = operations::milling(&body, &looks);
+    let allowances = Allowances::of(&turned.mesh);
+    let mut works = Vec::new();
+    let drilled = drilling(&body);
+    let done: Vec<u32> = drilled.iter().flat_map(|holes| holes.faces.iter().copied()).collect();
+    let open: Vec<u32> = workable(&looks).map(|face| face.face).filter(|face| !done.contains(face)).collect();
+    let are_all = done.is_empty() && covered(&looks).next().is_none();
+    match roughing(&body, allowances, &drilled, Some(open).filter(|open| !are_all && open.len() <= operations::NAMES)) {
+        Ok(work) => works.push(work),
+        Err(why) => reasons.push(why),
+    }
+    works.extend(drilled.into_iter().map(|holes| holes.work));
+    let milled = operations::milling(&body, &looks, &done);
     reasons.extend(milled.reasons);
-    let named = |face: &FaceLook| face.looks_down && milled.works.iter().any(|work| work.names(face.face));
+    works.extend(milled.works);
+    let named = |face: &FaceLook| face.looks_down && works.iter().any(|work| work.names(face.face));
     Choice {
         reasons,
         up,
         sheet: None,
-        tool: milled.tool,
+        stock: Some(allowances),
         max_unreached: milled.max_unreached,
         allow_undercuts: looks.faces.iter().any(named),
-        operations: milled.works,
+        operations: works,
         bounds: bounds(&turned.mesh),
     }
 }

@@ -2,11 +2,14 @@
 
 use styluscam_geometry::CutterMaterial;
 
+use super::choice::Choice;
 use super::part::StarterPart;
-use super::sizes::Cutter;
 use super::text::{number, quoted, wrapped};
-use crate::cutting::{cutting_data, Cut, CuttingData, CuttingWork, Engagement, MachineLimits};
-use crate::JobError;
+use super::work::Work;
+use super::written::Written;
+use crate::cutting::{data_of, CuttingData, CuttingTable, MachineLimits};
+use crate::operations::Serves;
+use crate::{parse, resolve, JobDocument, JobError};
 
 /// What is cut where nothing is stated.
 const MATERIAL: &str = "aluminium";
@@ -15,6 +18,8 @@ const SMALL: MachineLimits = MachineLimits { min_rpm: None, max_rpm: Some(12_000
 /// The cutter.
 const FLUTES: u32 = 2;
 const CUTTER: CutterMaterial = CutterMaterial::Carbide;
+/// What an operation has before its own spindle is known.
+const TURNING: &str = "spindle = { mode = \"fixed\", rpm = 1000.0 }\n";
 /// Feeds of a stylus, mm/min: along the path, and down.
 const SLIDING: [f64; 2] = [1500.0, 300.0];
 
@@ -22,65 +27,100 @@ const SLIDING: [f64; 2] = [1500.0, 300.0];
 pub struct StarterFeeds {
     /// Lines of the process.
     pub process: String,
-    /// Lines of the tool.
+    /// Lines of each tool.
     pub tool: String,
     /// Lines of each operation.
-    pub operation: String,
-    /// What a reader is to know.
-    pub reason: Option<String>,
+    pub operations: Vec<String>,
 }
 
-/// For a solid that is milled with a cutter.
+/// For a job, from its operations as they are written without; those for which there are no cutting data are left out of it.
 ///
 /// # Errors
 /// A material that the table does not have, a size out of it.
-pub fn milling(part: &StarterPart<'_>, cutter: &Cutter) -> Result<StarterFeeds, JobError> {
+pub fn feeds(part: &StarterPart<'_>, choice: &mut Choice, tolerances: [f64; 2]) -> Result<StarterFeeds, JobError> {
+    if choice.sheet.is_some() {
+        return Ok(forming(part, choice));
+    }
+    milling(part, choice, tolerances)
+}
+
+/// For a solid that is milled with cutters.
+fn milling(part: &StarterPart<'_>, choice: &mut Choice, tolerances: [f64; 2]) -> Result<StarterFeeds, JobError> {
     let material = part.table.material(part.material.unwrap_or(MATERIAL))?.name.clone();
-    let made = cutter.made().ok_or_else(|| {
-        let message = format!("no cutter is {} mm wide", cutter.diameter);
-        JobError::document("out-of-range", "tools.cutter", message, "check the part's unit")
-    })?;
-    let cut = Cut {
-        cutter: &made.cutter(),
-        cutter_material: CUTTER,
-        flutes: Some(FLUTES),
-        material: &material,
-        work: CuttingWork::FinishMilling,
-        engagement: Engagement::default(),
-        pitch: None,
-        limits: SMALL,
-    };
-    let data = cutting_data(&cut, part.table)?;
     let own = part.cutting_data.map_or(String::new(), |file| format!("cutting_data = {}\n", quoted(file)));
-    let assumed = if part.material.is_some() { "" } else { ", which is assumed" };
-    Ok(StarterFeeds {
+    let mut feeds = StarterFeeds {
         process: format!(
             "material = {:23}# of the workpiece: see `styluscam material cutting`\n{own}",
             quoted(&material)
         ),
-        tool: format!("flutes = {FLUTES}\ncutter_material = {:16}# or \"hss\": high-speed steel\n", quoted(CUTTER.name())),
-        operation: written(&data),
-        reason: Some(format!(
-            "feeds and spindle are for {material}{assumed}, a cutter of {} with {FLUTES} flutes, and a machine that turns at {} rev/min \
-             and feeds at {} mm/min at most: beside them is what they follow from",
-            CUTTER.name(),
-            SMALL.max_rpm.unwrap_or_default(),
-            SMALL.max_feed.unwrap_or_default()
-        )),
-    })
+        tool: format!(
+            "flutes = {FLUTES}\ncutter_material = {:16}# or \"hss\": high-speed steel\n",
+            quoted(CUTTER.name())
+        ),
+        operations: vec![TURNING.to_owned(); choice.operations.len()],
+    };
+    let job = parse::from_toml(&Written { part, choice, tolerances, feeds: Some(&feeds) }.job())?;
+    feeds.operations.clear();
+    let mut kept = Vec::new();
+    for (index, work) in std::mem::take(&mut choice.operations).into_iter().enumerate() {
+        match of_operation(&job, index, &material, part.table) {
+            Ok(data) => {
+                feeds.operations.push(written(&data));
+                kept.push(work);
+            }
+            Err(error) if error.code() == "no-cutting-data" && is_before_finishing(&work) => {
+                choice.reasons.push(format!("no operation {:?}: {error}", work.id));
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    choice.operations = kept;
+    let assumed = if part.material.is_some() { "" } else { ", which is assumed" };
+    choice.reasons.push(format!(
+        "feeds and spindle are for {material}{assumed}, cutters of {} with {FLUTES} flutes, and a machine that turns at {} rev/min \
+         and feeds at {} mm/min at most: beside them is what they follow from",
+        CUTTER.name(),
+        SMALL.max_rpm.unwrap_or_default(),
+        SMALL.max_feed.unwrap_or_default()
+    ));
+    Ok(feeds)
+}
+
+/// What prepares for finishing: without it the rest is a job as well.
+fn is_before_finishing(work: &Work) -> bool {
+    matches!(work.serves, Serves::Stock | Serves::Holes)
+}
+
+/// What the table states for an operation of a job.
+fn of_operation(
+    job: &JobDocument,
+    index: usize,
+    material: &str,
+    table: &CuttingTable,
+) -> Result<CuttingData, JobError> {
+    let tools = resolve::tools(job)?;
+    let section = job.operations.get(index);
+    let (section, (tool, _)) =
+        section.and_then(|section| Some((section, tools.get(&section.common.tool)?))).ok_or_else(|| {
+            JobError::document("missing", format!("operations[{index}]"), "it has no tool", "check the part's unit")
+        })?;
+    data_of(section, index, (tool, material), table, SMALL)
 }
 
 /// For a sheet that a stylus forms.
-pub fn forming(part: &StarterPart<'_>) -> StarterFeeds {
+fn forming(part: &StarterPart<'_>, choice: &mut Choice) -> StarterFeeds {
     let known = part.material.filter(|name| crate::materials::check(name).is_ok());
+    if let Some(name) = part.material.filter(|_| known.is_none()) {
+        choice.reasons.push(format!(
+            "{name:?} is left out: how steep a wall sheets of it withstand is not known (`styluscam material list`)"
+        ));
+    }
     let [cut, plunge] = SLIDING.map(number);
+    let feeds = format!("feeds = {{ cut = {cut}, plunge = {plunge} }}\n");
     StarterFeeds {
         process: known.map_or(String::new(), |name| format!("material = {}\n", quoted(name))),
         tool: String::new(),
-        operation: format!("feeds = {{ cut = {cut}, plunge = {plunge} }}\n"),
-        reason: part.material.filter(|_| known.is_none()).map(|name| {
-            format!("{name:?} is left out: how steep a wall sheets of it withstand is not known (`styluscam material list`)")
-        }),
+        operations: choice.operations.iter().map(|_| feeds.clone()).collect(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The operations of a job: rows for floors and gentle slopes, levels for walls, no face twice.
+//! The operations that finish a part: rows for floors and gentle slopes, levels for walls, no face twice.
 
 use std::collections::BTreeMap;
 
@@ -6,17 +6,18 @@ use styluscam_geometry::Mesh;
 use styluscam_verify::ToolReach;
 
 use super::sizes::{self, round, Cutter, Shape};
+use super::work::Work;
 use super::workable::{covered, workable};
 use crate::body::{Body, FaceLook, Hollows};
 use crate::faces::UP;
 use crate::limits::NO_ROOM;
-use crate::operations::Serves;
+use crate::operations::{Serves, StarterPasses};
 use crate::ProcessKeys;
 
 /// Share of the seen area that is worth an operation of its own.
 const WORTH: f64 = 0.01;
 /// Names in one operation at most: beyond, nobody reads or edits them.
-const NAMES: usize = 400;
+pub const NAMES: usize = 400;
 /// A face that is steep on this share of what faces up is a wall.
 const WALL: f64 = 0.75;
 /// A part whose faces are flat or upright on this share of their area is milled with a flat tool.
@@ -46,29 +47,11 @@ const WORTHWHILE: f64 = 0.95;
 const TRIED: usize = 2;
 /// Share of the faces beyond which the tool is no tool for the part.
 const MOST_LEFT: f64 = 0.3;
+/// Why levels and rows are there.
+const WALLS: &str = "finishing of upright and steep faces, in levels";
+const FLOORS: &str = "finishing of floors and gentle slopes, in rows";
 /// Levels at most.
 const LEVELS: f64 = 250.0;
-
-/// One operation.
-#[derive(Clone, Debug)]
-pub struct Work {
-    pub id: &'static str,
-    /// What its kind is for.
-    pub serves: Serves,
-    /// Numbers of the faces; none: the part's.
-    pub faces: Option<Vec<u32>>,
-    /// Between levels or rows, mm.
-    pub pitch: f64,
-    /// Direction of rows, degrees.
-    pub angle_deg: f64,
-}
-
-impl Work {
-    /// Whether it names a face.
-    pub fn names(&self, face: u32) -> bool {
-        self.faces.as_ref().is_some_and(|faces| faces.contains(&face))
-    }
-}
 
 /// What is milled, and why so.
 pub struct Milled {
@@ -93,13 +76,37 @@ impl Milled {
 /// Levels over all that faces up.
 pub fn forming(mesh: &Mesh, looks: &Hollows, tool: &Cutter) -> Work {
     let faces: Vec<&FaceLook> = workable(looks).collect();
-    let pitch = levels_apart(mesh, &faces, tool);
-    Work { id: "walls", serves: Serves::Walls, faces: None, pitch, angle_deg: 0.0 }
+    work(
+        "walls",
+        Serves::Walls,
+        ("stylus", tool),
+        None,
+        ([levels_apart(mesh, &faces, tool), 0.0], "levels over all that faces up"),
+    )
 }
 
-/// Rows, levels, or both, with a tool that gets to the faces.
-pub fn milling(body: &Body<'_>, looks: &Hollows) -> Milled {
-    let seen: Vec<&FaceLook> = workable(looks).collect();
+fn work(
+    id: &str,
+    serves: Serves,
+    (tool, cutter): (&str, &Cutter),
+    faces: Option<Vec<u32>>,
+    ([pitch, angle_deg], why): ([f64; 2], &str),
+) -> Work {
+    Work {
+        id: id.to_owned(),
+        serves,
+        tool: tool.to_owned(),
+        cutter: *cutter,
+        faces,
+        passes: StarterPasses { pitch, angle_deg, ..StarterPasses::default() },
+        leave: 0.0,
+        why: vec![why.to_owned()],
+    }
+}
+
+/// Rows, levels, or both, with a tool that gets to the faces that are not `done` before.
+pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32]) -> Milled {
+    let seen: Vec<&FaceLook> = workable(looks).filter(|face| !done.contains(&face.face)).collect();
     let is_prismatic = seen.iter().all(|face| face.flat >= PRISMATIC || face.vertical >= PRISMATIC);
     let shape = if is_prismatic { Shape::Flat } else { Shape::Ball };
     let drilled = |face: &&FaceLook| face.hole.is_some();
@@ -156,9 +163,10 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let with_levels = area(&open) >= WORTH * whole && few;
     let with_rows = area(&floors) >= WORTH * whole || !with_levels;
     let angle_deg = if size(mesh)[0] >= size(mesh)[1] { 0.0 } else { 90.0 };
-    let rows = |faces| Work { id: "floors", serves: Serves::Floors, faces, pitch: rows_apart(seen, &tool), angle_deg };
+    let cutter = ("cutter", &tool);
+    let rows = |faces| work("floors", Serves::Floors, cutter, faces, ([rows_apart(seen, &tool), angle_deg], FLOORS));
     let levels =
-        |faces| Work { id: "walls", serves: Serves::Walls, faces, pitch: levels_apart(mesh, &open, &tool), angle_deg };
+        |faces| work("walls", Serves::Walls, cutter, faces, ([levels_apart(mesh, &open, &tool), angle_deg], WALLS));
     let numbers = |faces: &[&FaceLook]| Some(faces.iter().map(|face| face.face).collect::<Vec<u32>>());
     let (works, words) = match (with_levels, with_rows) {
         (true, true) => (
@@ -177,7 +185,6 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let prefix = milled.left_out();
     milled.reasons.extend(missed.map(|words| format!("{prefix}{words}")));
     milled.reasons.push(words.to_owned());
-    milled.reasons.push("these are finishing passes: the stock is to be roughed before".to_owned());
     milled
 }
 
@@ -212,7 +219,7 @@ impl<'a> ByFace<'a> {
         let (body, mesh) = (self.body, self.body.mesh());
         let side = match tool.shape {
             Shape::Ball => 0.5 * tool.diameter,
-            Shape::Flat => 0.0,
+            Shape::Flat | Shape::Drill => 0.0,
         };
         let floor_before = |triangle: &usize| {
             let [a, b, c] = mesh.corners(*triangle);
@@ -259,7 +266,7 @@ fn untouched(low: &[&FaceLook], tool: &Cutter) -> Option<String> {
     let diameter = tool.diameter;
     let other = match tool.shape {
         Shape::Ball => "a flat or a smaller tool",
-        Shape::Flat => "a smaller tool",
+        Shape::Flat | Shape::Drill => "a smaller tool",
     };
     (!low.is_empty()).then(|| {
         format!(
@@ -316,7 +323,7 @@ fn by_scallop(tool: &Cutter) -> f64 {
 fn rows_apart(faces: &[&FaceLook], tool: &Cutter) -> f64 {
     let length = match tool.shape {
         Shape::Ball => by_scallop(tool),
-        Shape::Flat => FLAT_ROWS * tool.diameter,
+        Shape::Flat | Shape::Drill => FLAT_ROWS * tool.diameter,
     };
     let longest = area(faces) / LONGEST;
     round(length.max(longest.min(0.25 * tool.diameter)))
@@ -325,7 +332,7 @@ fn rows_apart(faces: &[&FaceLook], tool: &Cutter) -> f64 {
 fn levels_apart(mesh: &Mesh, faces: &[&FaceLook], tool: &Cutter) -> f64 {
     let length = match tool.shape {
         Shape::Ball => by_scallop(tool) * steepness(faces),
-        Shape::Flat => FLAT_LEVELS * tool.diameter,
+        Shape::Flat | Shape::Drill => FLAT_LEVELS * tool.diameter,
     };
     let deepest = size(mesh)[2] / LEVELS;
     let longest = area(faces) / LONGEST;

@@ -2,6 +2,7 @@
 
 use styluscam_geometry::{kinds, Bvh, Mesh, ProfileDocument, Tool, ToolDocument};
 
+use super::text::number;
 use super::workable::workable;
 use crate::body::{Body, FaceLook, Hollows};
 
@@ -20,6 +21,9 @@ const LEFT: f64 = 0.02;
 /// The tool may be this much wider than what bounds it: what triangles know of a radius.
 const SLACK: f64 = 1.01;
 
+/// Angle of a twist drill's point, degrees (DIN 338, for steel and cast metal).
+const DRILL_POINT_DEG: f64 = 118.0;
+
 /// The tool's profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -27,6 +31,8 @@ pub enum Shape {
     Ball,
     /// For floors and upright walls.
     Flat,
+    /// For holes: a twist drill.
+    Drill,
 }
 
 /// A tool.
@@ -38,12 +44,28 @@ pub struct Cutter {
 }
 
 impl Cutter {
+    /// Its profile as a job states it.
+    pub fn profile(&self) -> String {
+        let diameter = number(self.diameter);
+        match self.shape {
+            Shape::Ball => format!("{{ kind = \"ball\", diameter = {diameter} }}"),
+            Shape::Flat => format!("{{ kind = \"flat\", diameter = {diameter} }}"),
+            Shape::Drill => {
+                format!("{{ kind = \"v\", angle_deg = {}, diameter = {diameter} }}", number(DRILL_POINT_DEG))
+            }
+        }
+    }
+
     /// The tool itself; none where its diameter is no tool's.
     pub fn made(&self) -> Option<Tool> {
         let diameter = self.diameter;
         let profile = match self.shape {
             Shape::Ball => ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.0 }),
             Shape::Flat => ProfileDocument::from(kinds::Flat { diameter, tip_flat: 0.0 }),
+            Shape::Drill => {
+                let (tip_diameter, angle_deg) = (0.0, DRILL_POINT_DEG);
+                ProfileDocument::from(kinds::V { tip_diameter, angle_deg, diameter, tip_flat: 0.0 })
+            }
         };
         Tool::new(ToolDocument::of(profile)).ok()
     }
@@ -52,6 +74,11 @@ impl Cutter {
 /// The next smaller diameter that a shop has and that makes sense for a part of some size, mm.
 pub fn next_smaller(diameter: f64, mesh: &Mesh) -> Option<f64> {
     DIAMETERS.into_iter().find(|other| *other < diameter).filter(|smaller| *smaller >= thinnest(mesh))
+}
+
+/// The diameters that a shop has between two, mm, the widest first.
+pub fn between([least, most]: [f64; 2]) -> impl Iterator<Item = f64> {
+    DIAMETERS.into_iter().filter(move |d| (least..=most).contains(d))
 }
 
 /// The radius up to which a tool from above fits the concave areas of a part, all but a fiftieth of its area, mm; none where
