@@ -121,7 +121,8 @@ impl Pocket {
         serves: Serves::Stock,
         starter: |passes| {
             format!(
-                "step = {{ height = {:?} }}    # distance between levels\nengagement_deg = 60.0      # largest engagement \
+                "clears = \"stock\"           # all that the tool reaches, or \"faces\": what is over these alone\n\
+                 step = {{ height = {:?} }}    # distance between levels\nengagement_deg = 60.0      # largest engagement \
                  angle\n",
                 passes.pitch
             )

@@ -4,9 +4,9 @@ use crate::offset::Envelope;
 
 /// Triangles count as horizontal whose unit normal lies this near to the vertical, in its cosine: a slope of 1e-4,
 const LEVEL: f64 = 5e-9;
-/// and whose corners lie this near to one height, as a share of the largest coordinate: four units of a file of single
-/// precision. A floor counts as at a level up to so far over it.
-const SINGLE: f64 = 4.0 * f32::EPSILON as f64;
+/// and whose corners lie this near to one height, as a share of the largest coordinate: a unit of a file of six digits.
+/// A floor counts as at a level up to so far over it.
+const SIX_DIGITS: f64 = 1e-5;
 /// But not farther than this share of the margin.
 const BESIDE: f64 = 0.5;
 /// A level that is no higher over a floor than this, mm, stands on it.
@@ -26,7 +26,7 @@ impl Floors {
     pub fn of(envelope: &Envelope<'_>) -> Self {
         let (mesh, margin) = (envelope.mesh(), envelope.margin());
         let (low, high) = mesh.bounds();
-        let beside = (SINGLE * low.amax().max(high.amax())).min(BESIDE * margin);
+        let beside = (SIX_DIGITS * low.amax().max(high.amax())).min(BESIDE * margin);
         let floor = |t: usize| {
             let heights = mesh.corners(t).map(|corner| corner.z);
             let [low, high] = [f64::min, f64::max].map(|of| heights.into_iter().fold(heights[0], of));

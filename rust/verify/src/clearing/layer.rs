@@ -210,7 +210,7 @@ impl Layer<'_> {
         let lowest = segment.lowest();
         let start = segment.start.filter(|_| lowest < self.top - SLACK)?;
         let goes_up = !segment.travels() && segment.end[2] >= start[2];
-        let falls = segment.descends() && start[2] > self.floor + SAME_LEVEL;
+        let falls = own.descends && start[2] > self.floor + SAME_LEVEL;
         match segment.kind {
             _ if goes_up => None,
             _ if lowest <= self.floor - SAME_LEVEL => Some(Doing::Below),

@@ -1,9 +1,11 @@
 //! Levels that are missing: farther apart than a step, on level floors, and at the height to which all stock is to be cleared.
 //!
-//! Of rest machining only those on which there is stock left that the tool reaches: others have nothing to clear.
+//! Of rest machining, and where all stock is cleared, only those on which there is stock left that the tool reaches: others have nothing
+//! to clear.
 
 use styluscam_motion::{Cancelled, Watch};
 
+use super::layer::Layer;
 use super::rest::{left, Grid};
 use super::work::Work;
 use crate::body::Body;
@@ -12,8 +14,18 @@ use crate::findings::{Finding, FindingKind, Severity};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
 
-/// A finding, and the layers that the levels would have cleared, from the top down, mm.
-type Missing = (Finding, Vec<[f64; 2]>);
+/// Of smaller floors, in squares of the tool's radius, only those are to have a level over which the tool's axis gets: among the triangles
+/// of curved faces some are level.
+const SMALL: f64 = 0.5;
+
+/// A level that is missing.
+struct Missing {
+    finding: Finding,
+    /// The layers that the levels would have cleared, from the top down, mm.
+    layers: Vec<[f64; 2]>,
+    /// Triangles of the floor that it would have been for.
+    floor: Vec<usize>,
+}
 
 /// The findings of levels that are missing.
 pub(super) fn missing(
@@ -24,31 +36,37 @@ pub(super) fn missing(
     watch: &Watch,
 ) -> Result<Vec<Finding>, Cancelled> {
     let mut findings = Vec::new();
-    for (finding, layers) in wide(work).into_iter().chain(over_floors(work, subject)).chain(above_lowest(work)) {
-        let mut is_owed = !work.clearing.rest || layers.is_empty();
+    for Missing { finding, layers, floor } in
+        wide(work).into_iter().chain(over_floors(work, subject)).chain(above_lowest(work))
+    {
+        let mut is_owed = !(work.clearing.rest || work.clearing.all) || layers.is_empty();
         for layer in layers {
-            is_owed = is_owed || has_stock(layer, work, body, subject, limits, watch)?;
+            is_owed = is_owed
+                || work.in_layer(layer, subject, limits, |layer| has_stock(layer, &floor, body, subject, watch))?;
         }
         findings.extend(is_owed.then_some(finding));
     }
     Ok(findings)
 }
 
-/// Whether there is stock in a layer that the tool reaches.
+/// Whether there is stock in a layer that the tool reaches; of a floor, over it.
 fn has_stock(
-    layer: [f64; 2],
-    work: &Work<'_>,
+    layer: &Layer<'_>,
+    floor: &[usize],
     body: &Body,
     subject: &Subject,
-    limits: &Limits,
     watch: &Watch,
 ) -> Result<bool, Cancelled> {
-    work.in_layer(layer, subject, limits, |layer| {
-        let grid = Grid::new(layer);
-        let free = grid.free(layer, body, subject, watch)?;
-        let reached = grid.reached(layer, &free, &[], subject);
-        Ok(left(layer, &[], (&grid, &reached)).is_some())
-    })
+    let grid = Grid::new(layer);
+    let free = grid.free(layer, body, subject, watch)?;
+    let mut reached = grid.reached(layer, &free, &[], subject);
+    if !floor.is_empty() {
+        let area: f64 = floor.iter().map(|triangle| subject.mesh.area(*triangle)).sum();
+        let beside = if area < SMALL * layer.radius * layer.radius { 0.0 } else { layer.radius };
+        let over = grid.over(floor.iter().copied(), beside, subject);
+        reached.iter_mut().zip(over).for_each(|(reached, over)| *reached &= over);
+    }
+    Ok(left(layer, &[], (&grid, &reached)).is_some())
 }
 
 fn finding(message: String) -> Finding {
@@ -81,7 +99,7 @@ fn wide(work: &Work<'_>) -> Vec<Missing> {
                     "operation {id:?}: from Z{above:.3} to Z{below:.3} there is no level, and they are to be {most:.3} mm apart at \
                      most; post the job again"
                 );
-                (finding(message), layers)
+                Missing { finding: finding(message), layers, floor: Vec::new() }
             })
         })
         .collect()
@@ -92,19 +110,20 @@ fn over_floors(work: &Work<'_>, subject: &Subject) -> Vec<Missing> {
     let Work { operation, clearing, .. } = work;
     let (id, all) = (&operation.id, all_heights(work));
     let [lowest, highest] = operation.expectation.heights;
-    let mut floors: Vec<f64> = operation
+    let height = |triangle: usize| subject.mesh.corners(triangle)[0].z;
+    let mut level: Vec<usize> = operation
         .expectation
         .triangles()
         .into_iter()
         .filter(|triangle| subject.mesh.normal(*triangle).z > 1.0 - SLACK)
-        .map(|triangle| subject.mesh.corners(triangle)[0].z)
-        .filter(|z| *z < clearing.top - ROUGH && (lowest..=highest).contains(z))
+        .filter(|triangle| height(*triangle) < clearing.top - ROUGH && (lowest..=highest).contains(&height(*triangle)))
         .collect();
-    floors.sort_by(f64::total_cmp);
-    floors.dedup_by(|a, b| (*a - *b).abs() <= SAME_LEVEL);
+    level.sort_by(|a, b| height(*a).total_cmp(&height(*b)));
+    let floors = level.chunk_by(|a, b| height(*b) - height(*a) <= SAME_LEVEL);
+    let floors = floors.map(|floor| (floor.first().map_or(clearing.top, |triangle| height(*triangle)), floor));
     let left = clearing.left[1];
     let allowed = ROUGH + clearing.tolerance;
-    let over = floors.into_iter().filter(|floor| floor + left < clearing.top - ROUGH).map(|floor| {
+    let over = floors.filter(|(floor, _)| floor + left < clearing.top - ROUGH).map(|(floor, triangles)| {
         let level = all.iter().position(|z| (-SAME_LEVEL..=allowed).contains(&(z - floor - left)));
         let Some((level, above)) = level.and_then(|i| Some((all.get(i)?, all.get(i.checked_sub(1)?)?))) else {
             let on = if left > 0.0 { format!("{left:.3} mm over") } else { "on".to_owned() };
@@ -113,7 +132,11 @@ fn over_floors(work: &Work<'_>, subject: &Subject) -> Vec<Missing> {
             );
             let height = floor + left + clearing.tolerance;
             let top = (height + clearing.pitch.at(height)).min(clearing.top);
-            return Some((finding(message), vec![[top, height]]));
+            return Some(Missing {
+                finding: finding(message),
+                layers: vec![[top, height]],
+                floor: triangles.to_vec(),
+            });
         };
         (above - level > clearing.last_layer + 3.0 * ROUGH).then(|| {
             let message = format!(
@@ -122,7 +145,7 @@ fn over_floors(work: &Work<'_>, subject: &Subject) -> Vec<Missing> {
                 above - level,
                 clearing.last_layer
             );
-            (finding(message), Vec::new())
+            Missing { finding: finding(message), layers: Vec::new(), floor: Vec::new() }
         })
     });
     over.flatten().collect()
@@ -136,6 +159,6 @@ fn above_lowest(work: &Work<'_>) -> Option<Missing> {
         let message = format!(
             "operation {id:?}: the last level lies at Z{last:.3}, and stock is to be cleared down to Z{lowest:.3}; post the job again"
         );
-        (finding(message), stepped(clearing, [last, lowest]))
+        Missing { finding: finding(message), layers: stepped(clearing, [last, lowest]), floor: Vec::new() }
     })
 }

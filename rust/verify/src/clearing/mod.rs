@@ -55,7 +55,7 @@ pub(crate) fn judged(
 ) -> Result<Judged, Cancelled> {
     let Judged { mut faults, mut findings, mut engagement } = Judged::default();
     for operation in subject.expected {
-        let Some(work) = Work::of(operation, program, segments, assignment, subject) else { continue };
+        let Some(work) = Work::of(operation, program, segments, assignment, subject, limits) else { continue };
         let body = Body::new(work.tool, subject.sheet.as_ref());
         let mut along = Along::new(&work);
         work.by_layer(subject, limits, |layer| {

@@ -3,7 +3,10 @@
 use styluscam_motion::{FeedMode, Program, Role};
 
 use crate::segments::{Segment, SegmentKind};
-use crate::tolerances::SAME_LEVEL;
+use crate::tolerances::{SAME_LEVEL, SLACK};
+
+/// Falls of a descent of which single moves are rounded to none, units at most.
+const ROUNDED_FALL: f64 = 2.0;
 
 /// A move, with what is known of it besides its way.
 #[derive(Clone, Copy, Debug)]
@@ -13,10 +16,17 @@ pub(super) struct Own<'a> {
     pub feed: Option<f64>,
     /// Whether it is to cut nothing: because the text calls it a link, or because the tool has been lifted at a feed and not come down since.
     pub is_link: bool,
+    /// Whether it is part of a descent: it goes down, or would but for rounding.
+    pub descends: bool,
 }
 
-/// The moves of an operation in their order.
-pub(super) fn moves_of<'a>(program: &Program, segments: impl Iterator<Item = &'a Segment>) -> Vec<Own<'a>> {
+/// The moves of an operation in their order; `unit` is what the text's last decimal counts, mm, and `radius` the tool's, mm.
+pub(super) fn moves_of<'a>(
+    program: &Program,
+    segments: impl Iterator<Item = &'a Segment>,
+    unit: f64,
+    radius: f64,
+) -> Vec<Own<'a>> {
     let mut is_lifted = false;
     let own = segments.map(|segment| {
         let step = program.moves.get(segment.index);
@@ -24,7 +34,30 @@ pub(super) fn moves_of<'a>(program: &Program, segments: impl Iterator<Item = &'a
         is_lifted = segment.kind != SegmentKind::Rapid && (rises || is_lifted && !segment.descends());
         let feed = step.filter(|step| segment.kind != SegmentKind::Rapid && step.feed_mode == FeedMode::PerMinute);
         let is_link = is_lifted || step.is_some_and(|step| step.role == Some(Role::Link));
-        Own { segment, feed: feed.map(|step| step.feed), is_link }
+        Own { segment, feed: feed.map(|step| step.feed), is_link, descends: segment.descends() }
     });
-    own.collect()
+    let mut own: Vec<Own> = own.collect();
+    rounded_descents(&mut own, unit, radius);
+    own
+}
+
+/// Marks level moves that are part of a descent: those between two falls of hardly more than a unit each, and shorter together than the
+/// tool's radius. Slow descents in short moves are rounded to such.
+fn rounded_descents(own: &mut [Own], unit: f64, radius: f64) {
+    let is_level = |own: &Own| own.segment.kind == SegmentKind::Lateral && !own.segment.falls();
+    let falls_slowly = |own: &Own| {
+        let fall = own.segment.start.map_or(0.0, |start| start[2] - own.segment.end[2]);
+        own.segment.kind == SegmentKind::Lateral && own.descends && fall <= ROUNDED_FALL * unit + SLACK
+    };
+    let mut first = 0;
+    while first < own.len() {
+        let count = own.iter().skip(first).take_while(|own| is_level(own)).count();
+        let after = first + count;
+        let around = first.checked_sub(1).and_then(|before| Some([own.get(before)?, own.get(after)?]));
+        let length: f64 = own.iter().skip(first).take(count).map(|own| own.segment.length()).sum();
+        if length < radius && around.is_some_and(|around| around.into_iter().all(falls_slowly)) {
+            own.iter_mut().skip(first).take(count).for_each(|own| own.descends = true);
+        }
+        first = after.max(first + 1);
+    }
 }

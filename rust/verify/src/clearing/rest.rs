@@ -186,13 +186,25 @@ impl Grid {
 
     /// The nodes that lie over selected triangles no higher than the layer's floor.
     fn over_selected(&self, layer: &Layer<'_>, subject: &Subject) -> Vec<usize> {
+        let is_low = |triangle: &usize| subject.mesh.corners(*triangle).iter().any(|corner| corner.z <= layer.floor);
+        let selected = layer.operation.expectation.triangles().into_iter();
+        self.over_each(selected.filter(is_low), subject)
+    }
+
+    /// Which nodes lie over some triangles, or within a radius of those that do, mm.
+    pub fn over(&self, triangles: impl Iterator<Item = usize>, radius: f64, subject: &Subject) -> Vec<bool> {
+        let mut over = vec![false; self.columns * self.rows];
+        for node in self.over_each(triangles, subject) {
+            over[node] = true;
+        }
+        self.widened(&over, radius)
+    }
+
+    /// The nodes that lie over triangles that are not upright.
+    fn over_each(&self, triangles: impl Iterator<Item = usize>, subject: &Subject) -> Vec<usize> {
         let mut over = Vec::new();
-        for triangle in layer.operation.expectation.triangles() {
-            let corners = subject.mesh.corners(triangle);
-            if subject.mesh.normal(triangle).z < UPRIGHT || corners.iter().all(|corner| corner.z > layer.floor) {
-                continue;
-            }
-            let flat = corners.map(|corner| [corner.x, corner.y]);
+        for triangle in triangles.filter(|triangle| subject.mesh.normal(*triangle).z >= UPRIGHT) {
+            let flat = subject.mesh.corners(triangle).map(|corner| [corner.x, corner.y]);
             let range = |i: usize| {
                 let low = flat.iter().fold(f64::INFINITY, |low, p| low.min(p[i]));
                 let high = flat.iter().fold(f64::NEG_INFINITY, |high, p| high.max(p[i]));

@@ -37,11 +37,16 @@ impl<'a> Work<'a> {
         segments: &'a [Segment],
         assignment: &Assignment,
         subject: &'a Subject,
+        limits: &Limits,
     ) -> Option<Self> {
         let clearing = operation.expectation.clearing()?;
         let stock = subject.stock?;
-        let own = moves_of(program, segments.iter().filter(|segment| assignment.is(segment.operation, operation)));
-        let tool = subject.tools.get(operation.tool).filter(|_| !own.is_empty())?;
+        let tool = subject.tools.get(operation.tool)?;
+        let segments_of = segments.iter().filter(|segment| assignment.is(segment.operation, operation));
+        let own = moves_of(program, segments_of, limits.unit, 0.5 * tool.diameter());
+        if own.is_empty() {
+            return None;
+        }
         let before = before::of(segments, &own, clearing);
         let heights = heights(&own, clearing.top);
         Some(Self { operation, clearing, tool, stock, own, before, heights })
@@ -90,7 +95,7 @@ impl<'a> Work<'a> {
 
 /// The heights of the tip on level feeds, from the top down.
 fn heights(own: &[Own], top: f64) -> Vec<f64> {
-    let level = own.iter().filter(|own| !own.is_link).map(|own| own.segment);
+    let level = own.iter().filter(|own| !own.is_link && !own.descends).map(|own| own.segment);
     let level = level.filter(|segment| segment.kind == SegmentKind::Lateral && !segment.falls());
     let mut heights: Vec<f64> = level.map(|segment| segment.end[2]).filter(|z| *z < top - SLACK).collect();
     heights.sort_by(|a, b| b.total_cmp(a));
