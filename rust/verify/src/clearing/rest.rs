@@ -4,6 +4,7 @@
 //! the smallest path's radius is free, and that hang together with one over a selected face (all of them where all stock is to be cleared), are where
 //! the tool is to have been: all stock within its radius of them is to be swept. The grid itself never asks for more than the tool can do: its positions are exact.
 
+use rayon::prelude::*;
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::{Cancelled, Watch};
 
@@ -117,12 +118,12 @@ impl Grid {
         let prober = Prober { body, mesh: subject.mesh, bvh: subject.bvh };
         let below = below(subject);
         let is_free = |node: usize| is_free(&prober, layer, below, self.at(node));
-        let mut free = Vec::with_capacity(self.columns * self.rows);
-        for row in 0..self.rows {
-            free.extend((row * self.columns..(row + 1) * self.columns).map(is_free));
+        let row = |row: usize| {
             watch.advance(0)?;
-        }
-        Ok(free)
+            Ok((row * self.columns..(row + 1) * self.columns).map(is_free).collect())
+        };
+        let rows: Result<Vec<Vec<bool>>, Cancelled> = (0..self.rows).into_par_iter().map(row).collect();
+        Ok(rows?.concat())
     }
 
     /// Where the tool is to have been.

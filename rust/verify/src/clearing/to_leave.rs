@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use rayon::prelude::*;
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
@@ -55,12 +56,7 @@ pub(super) fn faults(
     .map(|(sin, cos)| Vector::new(across * cos, across * sin, 0.0))
     .collect();
     let allowed = limits.gouge + 2.0 * limits.unit + subject.deviation_inward + SLACK;
-    let mut found = Vec::new();
-    for segment in own.iter().map(|own| own.segment) {
-        let is_in = |z: f64| z > layer.floor - SAME_LEVEL && z < layer.top - SLACK;
-        if segment.kind == SegmentKind::Rapid || segment.start.is_none() || !is_in(segment.lowest()) {
-            continue;
-        }
+    let deepest = |segment: &Segment| {
         let mut deepest: Option<(f64, [f64; 3])> = None;
         let parts = parts(segment, grid.spacing);
         for part in 0..parts {
@@ -69,10 +65,16 @@ pub(super) fn faults(
                 continue;
             }
             let [start, end] = [from, to].map(|[x, y, z]| body.position([x, y, z - under]));
-            for shift in &shifts {
+            let asked = |shift: &Vector, below: f64| {
                 let stroke = Stroke { from: start + shift, to: end + shift };
-                let question = Question { stroke, positions: [None; 2], below: -allowed };
-                let Some(passed) = prober.survey(question, None).deepest else { continue };
+                prober.survey(Question { stroke, positions: [None; 2], below }, None).deepest
+            };
+            // shifted, it comes nearer by no more than the shift
+            if asked(&Vector::zeros(), across - allowed + SLACK).is_none() {
+                continue;
+            }
+            for shift in &shifts {
+                let Some(passed) = asked(shift, -allowed) else { continue };
                 let depth = -passed.touch.value;
                 if deepest.is_none_or(|(most, _)| depth > most) {
                     let [x, y, z] = body.tip(passed.position - shift);
@@ -80,13 +82,21 @@ pub(super) fn faults(
                 }
             }
         }
-        if let Some((depth, position)) = deepest {
-            let fault = segment.fault(&faults::STOCK_TO_LEAVE).measured(depth, allowed);
-            found.push(Fault { position, ..fault });
-        }
+        deepest
+    };
+    let fault = |segment: &&Segment| {
         watch.advance(0)?;
-    }
-    Ok(found)
+        Ok(deepest(segment).map(|(depth, position)| {
+            let fault = segment.fault(&faults::STOCK_TO_LEAVE).measured(depth, allowed);
+            Fault { position, ..fault }
+        }))
+    };
+    let is_in = |z: f64| z > layer.floor - SAME_LEVEL && z < layer.top - SLACK;
+    let of_layer =
+        |segment: &&Segment| segment.kind != SegmentKind::Rapid && segment.start.is_some() && is_in(segment.lowest());
+    let segments: Vec<&Segment> = own.iter().map(|own| own.segment).filter(of_layer).collect();
+    let found: Result<Vec<Option<Fault>>, Cancelled> = segments.par_iter().with_min_len(64).map(fault).collect();
+    Ok(found?.into_iter().flatten().collect())
 }
 
 /// Into how many lines a move is divided: no longer than `longest`, mm, and near to it where it is an arc.

@@ -18,6 +18,10 @@ use super::runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, PROBE,
 const SAME: f64 = 1e-6;
 /// Turns above this are corners of the path, rad.
 const CORNER: f64 = 0.01;
+/// How far apart in the path pieces are that are looked at first.
+const APART: usize = 16;
+/// So many pieces are looked at before, from the last one of the position before on.
+const FOLLOWING: u32 = 3;
 /// The watch is asked after so many positions.
 const ASKED: usize = 256;
 
@@ -38,6 +42,8 @@ pub struct Walk {
     behind: f64,
     open: Open,
     scratch: Vec<f64>,
+    /// Number of the swept piece that was looked at last.
+    covering: u32,
 }
 
 impl Walk {
@@ -56,6 +62,7 @@ impl Walk {
             behind: 0.0,
             open: Open::default(),
             scratch: Vec::new(),
+            covering: 0,
         }
     }
 
@@ -192,6 +199,12 @@ impl Walk {
         let rim = Rim { centre: at, radius: self.radius };
         let (exact, thicker) = (self.radius, self.radius + self.chip);
         let scratch = &mut self.scratch;
+        // first what leaves least to look at: in most places the stock's outlines
+        for area in [&self.pocket, &self.stock] {
+            if !self.open.is_empty() {
+                self.open.keep(|interval, left| area.within(&rim, interval, scratch, left));
+            }
+        }
         for (piece, end) in self.pending.iter().rev() {
             let length = piece.length();
             if end - length > self.behind || (length <= 0.0 && *end > self.behind) {
@@ -200,12 +213,13 @@ impl Walk {
             let swept = if *end > self.behind { piece.up_to(1.0 - (end - self.behind) / length) } else { *piece };
             self.open.keep(|interval, left| rim.outside_sweep(interval, &swept, exact, scratch, left));
         }
-        for number in self.near.near(at).iter().rev() {
+        for number in likely_first(self.near.near(at), self.covering) {
             if self.open.is_empty() {
                 break;
             }
-            if let Some(piece) = self.swept.get(*number as usize) {
+            if let Some(piece) = self.swept.get(number as usize) {
                 self.open.keep(|interval, left| rim.outside_sweep(interval, piece, thicker, scratch, left));
+                self.covering = number;
             }
         }
         for (piece, radius) in self.cleared.near(at) {
@@ -214,14 +228,17 @@ impl Walk {
             }
             self.open.keep(|interval, left| rim.outside_sweep(interval, piece, radius + self.chip, scratch, left));
         }
-        for area in [&self.pocket, &self.stock] {
-            if !self.open.is_empty() {
-                self.open.keep(|interval, left| area.within(&rim, interval, scratch, left));
-            }
-        }
         let width = heading.map_or(0.0, |heading| self.open.width(heading, self.radius));
         Engaged { at, travelled, angle: self.open.total(), width, clearance: self.pocket.clearance(at) }
     }
+}
+
+/// Numbers of pieces: some that follow one that was the last to be needed at the position before, for a tool that goes along above its own path is
+/// covered by one of them alone; then each [`APART`]th from the last back, and those between. Pieces that follow each other cover the same
+/// directions.
+fn likely_first(numbers: &[u32], covering: u32) -> impl Iterator<Item = u32> + '_ {
+    let from = |first: usize| numbers.iter().rev().skip(first).step_by(APART).copied();
+    (covering..covering.saturating_add(FOLLOWING)).chain((0..APART).flat_map(from))
 }
 
 /// Angle between two headings, rad.
