@@ -29,6 +29,7 @@ mod levels;
 mod links;
 mod rails;
 mod reached;
+mod repeated;
 mod step;
 mod surface;
 mod tabs;

@@ -20,6 +20,7 @@ use super::entry::{Entry, EntryHole};
 use super::facts::counted;
 use super::keys;
 use super::levels::{self, LevelKeys};
+use super::repeated::{Repeated, Situation};
 use super::step::{Step, StepLimits};
 use super::surface::sense;
 use super::{
@@ -399,6 +400,7 @@ impl Pocket {
         let arcs = common.fit == Fit::Arcs && machine.arc.is_some() && machine.rotary.is_none();
         let before = if self.rest_machining { context.before.cleared([top, floor]) } else { Vec::new() };
         let is_cleared = |area: &&CentreArea| self.clears.is_all() || is_over_selected(surface, area, floor, radius);
+        let mut planned = Repeated::default();
         for area in CentreArea::parted(&all).iter().filter(is_cleared) {
             let asked = Asked {
                 shape: Shape::Centres { outlines: &area.outlines, stock: &stock },
@@ -413,7 +415,9 @@ impl Pocket {
                 entry: EntryRule { form: self.entry.form(), size: self.entry_size },
                 stepovers: true,
             };
-            let path = match pocket_path(&asked, watch) {
+            let now = Situation { outlines: &area.outlines, stock: &stock, radius };
+            let known = cleared.before.path(now).filter(|_| before.is_empty());
+            let path = match known.map_or_else(|| pocket_path(&asked, watch), Ok) {
                 Ok(path) => path,
                 Err(PocketError::TooSmall { .. }) => {
                     cleared.narrow += 1;
@@ -422,6 +426,7 @@ impl Pocket {
                 Err(PocketError::Empty) => continue, // an area beside the stock, or one that is open above
                 Err(error) => return Err(self.refused(context, floor, &error)),
             };
+            planned.keep(now, &path);
             cleared.holes += usize::from(self.begins_in_hole(context, area, &path)?);
             let takes = |ends: [[f64; 3]; 2], arc: &Arc| {
                 arcs && machine.arc.as_ref().is_some_and(|rules| rules.planes.contains(&arc.plane))
@@ -443,6 +448,7 @@ impl Pocket {
             cleared.goal += path.goal;
             cleared.moves.extend(segments(&path, &layer).iter().map(|segment: &Segment| segment.to_move(operation)));
         }
+        cleared.before = planned;
         Ok(())
     }
 
@@ -466,6 +472,8 @@ impl Pocket {
 #[derive(Default)]
 struct Cleared {
     moves: Vec<Move>,
+    /// The paths of the level before.
+    before: Repeated,
     /// Levels on which something was cleared.
     levels: usize,
     areas: usize,

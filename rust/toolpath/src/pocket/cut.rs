@@ -1,9 +1,11 @@
 //! Pieces of the path, and what they leave of the material.
 
+use super::contours::bounds;
 use super::growth::WALL;
 use super::material::Material;
 use super::pieces::SHALLOWEST;
 use super::polygons::{sides, signed_area, Kernel, Point, Polygons};
+use super::window::meets;
 
 /// A piece of the path.
 #[derive(Clone, Debug)]
@@ -33,7 +35,14 @@ impl Cut {
 /// What pieces leave of material.
 pub fn left_of<'a>(kernel: &Kernel, material: &Material, cuts: impl IntoIterator<Item = &'a Cut>) -> Material {
     let swept = Polygons { contours: cuts.into_iter().flat_map(|cut| cut.swept.contours.clone()).collect() };
-    Material::new(without_slivers(kernel.difference(&material.area, &swept)).thinned(0.3 * WALL))
+    let Some(window) = swept.bounds() else { return Material::new(material.area.clone()) };
+    // of an area with many holes most are far from what is swept: they stay as they are
+    let is_near = |contour: &&Vec<Point>| bounds(contour.iter()).is_some_and(|around| meets(&around, &window));
+    let (near, far): (Vec<_>, Vec<_>) = material.area.contours.iter().partition(is_near);
+    let near = Polygons { contours: near.into_iter().cloned().collect() };
+    let mut left = without_slivers(kernel.difference(&near, &swept)).thinned(0.3 * WALL);
+    left.contours.extend(far.into_iter().cloned());
+    Material::new(left)
 }
 
 /// The areas that are thicker than chips that do not count.

@@ -11,7 +11,7 @@ pub fn wider([low, high]: Window, by: f64) -> Window {
 }
 
 /// Whether two boxes have a point in common.
-fn meets([low, high]: &Window, [from, to]: &Window) -> bool {
+pub fn meets([low, high]: &Window, [from, to]: &Window) -> bool {
     (0..2).all(|i| low[i] <= to[i] && from[i] <= high[i])
 }
 
