@@ -53,6 +53,23 @@ impl Hole {
         2.0 * self.radius
     }
 
+    /// Whether another hole lies above or below on the same axis, as in the knuckles of a hinge: a tool that goes down the lower one comes
+    /// through the upper.
+    fn goes_on_in(&self, other: &Self) -> bool {
+        let apart = libm::hypot(self.at[0] - other.at[0], self.at[1] - other.at[1]);
+        let upper = if self.bottom > other.bottom { self } else { other };
+        apart <= SAME && (self.radius - other.radius).abs() <= SAME && upper.floor.is_none()
+    }
+
+    fn join(&mut self, other: Self) {
+        self.floor = if self.bottom < other.bottom { self.floor } else { other.floor };
+        self.faces.extend(other.faces);
+        self.radius = self.radius.min(other.radius);
+        self.top = self.top.max(other.top);
+        self.bottom = self.bottom.min(other.bottom);
+        self.chord = self.chord.max(other.chord);
+    }
+
     /// "Face7", "Face7 and Face8".
     pub fn name(&self) -> String {
         self.faces.iter().map(|face| format!("Face{face}")).collect::<Vec<_>>().join(" and ")
@@ -75,7 +92,14 @@ pub(crate) fn holes_among((mesh, bvh): (&Mesh, &Bvh), faces: &[u32]) -> Vec<Hole
         }
     }
     let rays = Rays::new(mesh, bvh);
-    walls.into_iter().filter(Wall::is_whole).filter_map(|wall| wall.hole(&rays)).collect()
+    let mut holes: Vec<Hole> = Vec::new();
+    for hole in walls.into_iter().filter(Wall::is_whole).filter_map(|wall| wall.hole(&rays)) {
+        match holes.iter_mut().find(|known| known.goes_on_in(&hole)) {
+            Some(known) => known.join(hole),
+            None => holes.push(hole),
+        }
+    }
+    holes
 }
 
 /// Whether a face is the wall of a round hole whose axis is not upright: its axis' angle from the vertical, rad.
@@ -260,5 +284,26 @@ mod tests {
         let mut halves = wall(200, 0.5);
         halves.join(Wall { bearings: wall(200, 0.5).bearings.iter().map(|b| -b).collect(), ..wall(200, 0.5) });
         assert!(halves.is_whole());
+    }
+
+    #[test]
+    fn holes_on_one_axis_are_one_where_the_upper_goes_through() {
+        let hole = |faces: &[u32], [bottom, top]: [f64; 2], floor: Option<f64>| Hole {
+            faces: faces.to_vec(),
+            at: [3.0, -7.0],
+            radius: 2.5,
+            top,
+            bottom,
+            floor,
+            chord: 0.0,
+        };
+        let (upper, lower) = (hole(&[1], [5.0, 9.0], None), hole(&[2], [-4.0, 1.0], Some(-4.0)));
+        assert!(upper.goes_on_in(&lower) && lower.goes_on_in(&upper));
+        assert!(!hole(&[1], [5.0, 9.0], Some(5.0)).goes_on_in(&lower), "a blind hole above another");
+        assert!(!Hole { radius: 2.0, ..upper.clone() }.goes_on_in(&lower), "a narrower one");
+        for (mut joined, other, faces) in [(upper.clone(), lower.clone(), [1, 2]), (lower, upper, [2, 1])] {
+            joined.join(other);
+            assert_eq!(joined, hole(&faces, [-4.0, 9.0], Some(-4.0)));
+        }
     }
 }

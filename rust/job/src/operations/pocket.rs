@@ -390,12 +390,11 @@ impl Pocket {
     ) -> Result<(), JobError> {
         let Context { scene, common, machine, tool, reference_height, operation, watch, .. } = *context;
         let radius = tool.cutter().at_height(top - floor).0;
-        let [left, finished] = self.left_and_finished(common.stock_to_leave());
+        let ([left, finished], direction) = (self.left_and_finished(common.stock_to_leave()), sense(common, true));
         let hole = self.entry_hole.map(EntryHole::outline);
         let air = box_around(stock, BEYOND * tool.diameter());
         let stock: Vec<Vec<[f64; 3]>> = stock.outlines_between([top, floor]).iter().cloned().chain(hole).collect();
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
-        let direction = sense(common, true);
         // in programs that lean arcs become lines, and their chords turn the heading
         let arcs = common.fit == Fit::Arcs && machine.arc.is_some() && machine.rotary.is_none();
         let before = if self.rest_machining { context.before.cleared([top, floor]) } else { Vec::new() };

@@ -25,6 +25,11 @@ const WIDEST: f64 = 0.35;
 const THINNEST: f64 = 0.04;
 /// Narrower tools do not rough, mm: they finish what little there is.
 const STURDY: f64 = 1.0;
+/// A way through the stock at full stepovers is no longer than this, mm, but with the widest tool: that is an hour or two, for in narrow spaces the
+/// real way is some ten times as long.
+const LONGEST: f64 = 10_000.0;
+/// Largest engagement angle, deg.
+const ENGAGEMENT_DEG: f64 = 60.0;
 /// Depth of a level, as a share of the tool's diameter: at a bounded engagement angle it could be deeper, shanks of long tools bend.
 const LEVEL: f64 = 0.5;
 /// Levels at most.
@@ -64,6 +69,19 @@ struct Cleared {
     depth: f64,
 }
 
+impl Cleared {
+    /// Depth of a level, mm.
+    fn pitch(&self) -> f64 {
+        round((LEVEL * self.cutter.diameter).min(self.depth).max(self.depth / LEVELS))
+    }
+
+    /// Length of a way through all of it at full stepovers, mm.
+    fn way(&self) -> f64 {
+        let stepover = 0.5 * self.cutter.diameter * (1.0 - libm::cos(ENGAGEMENT_DEG.to_radians()));
+        self.volume / (self.pitch() * stepover)
+    }
+}
+
 /// The roughing of the stock, but for what is drilled, or why there is none; `faces` are those of the part that are cut so, where
 /// they are not all.
 ///
@@ -81,17 +99,22 @@ pub fn roughing(
     let sizes = sizes::between([STURDY.max(THINNEST * larger), WIDEST * smaller]);
     let tried: Vec<Cleared> = sizes.filter_map(|diameter| looked.cleared(mesh, diameter)).collect();
     let most = tried.iter().map(|cleared| cleared.volume).fold(0.0, f64::max);
-    let chosen = tried.iter().find(|cleared| cleared.volume > 0.0 && cleared.volume >= ENOUGH * most);
-    let Some(Cleared { cutter, leave, depth, .. }) = chosen else {
+    let enough = tried.iter().position(|cleared| cleared.volume > 0.0 && cleared.volume >= ENOUGH * most);
+    let fitting = enough.and_then(|last| tried.get(..=last)).unwrap_or(&[]);
+    let quick = fitting.iter().rposition(|cleared| cleared.volume > 0.0 && cleared.way() <= LONGEST);
+    let number = quick.or_else(|| fitting.iter().position(|cleared| cleared.volume > 0.0));
+    let Some((number, chosen)) = number.and_then(|number| Some((number, fitting.get(number)?))) else {
         return Err("no roughing: no tool that suits the part's size gets to stock over it".to_owned());
     };
-    let pitch = round((LEVEL * cutter.diameter).min(*depth).max(depth / LEVELS));
-    let is_widest = tried.first().is_some_and(|first| first.cutter == *cutter);
-    let width = match is_widest {
-        true => "the widest that suits the part's size".to_owned(),
-        false => {
-            format!("wider ones get to less than {} of the stock that narrower ones get to", sizes::percent(ENOUGH))
-        }
+    let Cleared { cutter, leave, .. } = chosen;
+    let pitch = chosen.pitch();
+    let width = if number + 1 < fitting.len() {
+        "narrower ones get to more stock, and would take hours: what it leaves in narrow spaces is cut by finishing"
+            .to_owned()
+    } else if number == 0 {
+        "the widest that suits the part's size".to_owned()
+    } else {
+        format!("wider ones get to less than {} of the stock that narrower ones get to", sizes::percent(ENOUGH))
     };
     let why = vec![
         format!("the stock is cleared level by level first, with a flat tool of {} mm: {width}", cutter.diameter),
