@@ -27,7 +27,7 @@ const THINNEST: f64 = 0.04;
 const STURDY: f64 = 1.0;
 /// A way through the stock at full stepovers is no longer than this, mm, but with the widest tool: that is an hour or two, for in narrow spaces the
 /// real way is some ten times as long.
-const LONGEST: f64 = 10_000.0;
+const LONGEST: f64 = 6_000.0;
 /// Largest engagement angle, deg.
 const ENGAGEMENT_DEG: f64 = 60.0;
 /// Depth of a level, as a share of the tool's diameter: at a bounded engagement angle it could be deeper, shanks of long tools bend.
