@@ -16,7 +16,11 @@ PARTS = {part["name"]: part for part in json.loads((SLICE / "parts.json").read_t
 OPTIONS = argparse.Namespace(limit=60.0, patience=3.0, keep=None, variant=[], base=True, all=False)
 
 
-@pytest.mark.parametrize("name", PARTS)
+LONG = {"blend-02", "channel-01", "cup-02", "gearbox-00.as-made.ply-binary-mm", "hinge-02", "pins-03", "spline-05"}
+"""Parts whose roughing takes the better part of a minute to plan and to verify."""
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in LONG)) for name in PARTS])
 def test_a_part_becomes_a_program_or_one_true_sentence(name, tmp_path):
     (row,) = run_part(PARTS[name], SLICE, tmp_path, OPTIONS)
     assert row.wrong == "", f"{row.outcome}: {row.detail} {row.kinds}"
