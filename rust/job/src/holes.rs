@@ -62,7 +62,9 @@ impl Hole {
     }
 
     fn join(&mut self, other: Self) {
-        self.floor = if self.bottom < other.bottom { self.floor } else { other.floor };
+        if other.bottom < self.bottom {
+            (self.floor, self.floor_top) = (other.floor, other.floor_top);
+        }
         self.faces.extend(other.faces);
         self.radius = self.radius.min(other.radius);
         self.top = self.top.max(other.top);
@@ -295,6 +297,7 @@ mod tests {
             top,
             bottom,
             floor,
+            floor_top: floor,
             chord: 0.0,
         };
         let (upper, lower) = (hole(&[1], [5.0, 9.0], None), hole(&[2], [-4.0, 1.0], Some(-4.0)));

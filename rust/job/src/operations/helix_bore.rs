@@ -116,7 +116,7 @@ impl HelixBore {
     fn holes(&self, given: &PassContext<'_>) -> (Vec<Hole>, Vec<Hole>) {
         let tool = BoringTool::of(given.body);
         let is_bored = |hole: &Hole| self.is_asked(hole) && Self::has_room(hole, tool, given.to_leave[0]);
-        holes_among(given.scene, given.faces).into_iter().partition(is_bored)
+        holes_among(given.scene.solid(), given.faces).into_iter().partition(is_bored)
     }
 
     /// That a hole is not of the diameter asked for, or too narrow for the tool.
@@ -264,7 +264,7 @@ impl OperationKind for HelixBore {
             let hint = "lower helix_distance, or take a wider tool";
             return Err(JobError::document("conflict", format!("{path}.helix_distance"), message, hint));
         }
-        let found = holes_among(given.scene, given.faces);
+        let found = holes_among(given.scene.solid(), given.faces);
         let (bored, others) = self.holes(given);
         if are_named {
             check_walls(given, &found, path)?;
