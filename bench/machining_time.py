@@ -198,9 +198,12 @@ class Part:
                     print(f"  {self.name}: {operation} {number}: {message}", file=sys.stderr)
             except subprocess.TimeoutExpired:
                 print(f"  {self.name}: {operation} takes more than {SECONDS:g} s", file=sys.stderr)
+            except SystemExit as error:  # FreeCAD ended without an answer
+                print(f"  {self.name}: {operation}: {str(error)[-300:]}", file=sys.stderr)
             for number in range(len(cases)):
                 file = folder / f"{number}.ngc"
-                yield file.read_text(encoding="utf-8") if file.exists() else ""
+                text = file.read_text(encoding="utf-8") if file.exists() else ""
+                yield text if "X" in text else ""  # Waterline may give heights alone
 
 
 @dataclass(frozen=True)
