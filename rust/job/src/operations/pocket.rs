@@ -33,8 +33,10 @@ use crate::{JobError, OperationKeys};
 
 /// The smallest radius of the centre's path where none is stated, in tool radii.
 const MSR: f64 = 0.05;
-/// How far the tool's centre may go beyond the stock, in tool radii: so far that it is free of it there.
+/// How far the tool's centre may go beyond the stock, in tool diameters: so far that it is free of it there.
 const BEYOND: f64 = 2.5;
+/// A position so far within a corner of that tells which area it belongs to, mm.
+const CORNER: f64 = 1e-3;
 /// Positions across an area of which some must touch the selected faces, at least.
 const LOOKED: f64 = 24.0;
 /// Chords are off the arcs that a machine does not take by no more than this, mm: thinner than the chips that count.
@@ -392,7 +394,7 @@ impl Pocket {
         let radius = tool.cutter().at_height(top - floor).0;
         let ([left, finished], direction) = (self.left_and_finished(common.stock_to_leave()), sense(common, true));
         let hole = self.entry_hole.map(EntryHole::outline);
-        let air = box_around(stock, BEYOND * tool.diameter());
+        let (air, beyond) = box_around(stock, BEYOND * tool.diameter());
         let stock: Vec<Vec<[f64; 3]>> = stock.outlines_between([top, floor]).iter().cloned().chain(hole).collect();
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
         // in programs that lean arcs become lines, and their chords turn the heading
@@ -402,7 +404,7 @@ impl Pocket {
         let mut planned = Repeated::default();
         for area in CentreArea::parted(&all).iter().filter(is_cleared) {
             let asked = Asked {
-                shape: Shape::Centres { outlines: &area.outlines, stock: &stock },
+                shape: Shape::Centres { outlines: &area.outlines, stock: &stock, in_air: area.holds(beyond) },
                 radius,
                 angle: if arcs { self.angle() } else { (self.angle() - CORNERS).max(LEAST) },
                 smoothing: self.smoothing(0.5 * tool.diameter()),
@@ -529,10 +531,11 @@ fn with_last_layers(mut heights: Vec<f64>, top: f64, thickness: f64, floors: &[(
     heights
 }
 
-/// The outline of the stock's box in plan, `by` mm larger on all sides.
-fn box_around(stock: &Stock, by: f64) -> Vec<[f64; 3]> {
+/// The outline of the stock's box in plan, `by` mm larger on all sides, and a position in its corner.
+fn box_around(stock: &Stock, by: f64) -> (Vec<[f64; 3]>, [f64; 2]) {
     let (low, high) = stock.bounds();
-    rectangle_outline([low.x - by, low.y - by], [high.x + by, high.y + by])
+    let corner = [low.x - by, low.y - by];
+    (rectangle_outline(corner, [high.x + by, high.y + by]), corner.map(|x| x + CORNER))
 }
 
 /// Whether a tool that is lowered in an area touches selected faces there.

@@ -42,7 +42,7 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
     let walls = pieces(&ground.free, &strip.rest, r);
     let Before { rough, mut rest } = before(pocket, &ground, strip, &walls, most);
     let (outlines, stock) = (flat(&rough), flat(&ground.goal));
-    let shape = Shape::Centres { outlines: &outlines, stock: &stock };
+    let shape = Shape::Centres { outlines: &outlines, stock: &stock, in_air: false };
     let mut path = planner::plan(&Pocket { shape, leave: 0.0, finish: 0.0, ..*pocket }, watch)?;
     path.goal = ground.goal.area();
     let free = Material::new(ground.free.clone());
@@ -157,7 +157,7 @@ fn clear_rest(
     watch: &Watch,
 ) -> Result<(), PocketError> {
     let (outlines, stock) = (flat(&ground.free), flat(&rest.area));
-    let shape = Shape::Centres { outlines: &outlines, stock: &stock };
+    let shape = Shape::Centres { outlines: &outlines, stock: &stock, in_air: false };
     match planner::plan(&Pocket { shape, leave: 0.0, finish: 0.0, ..*pocket }, watch) {
         Ok(more) => {
             let ends = [path.runs.last(), more.runs.first()].map(|run| run.map(|run| run.points.clone()));

@@ -125,9 +125,11 @@ impl<'a> Framed<'a> {
             (Shape::Walls { open_edges, .. }, Some((boundary, islands))) => {
                 Shape::Walls { boundary, islands, open_edges, stock }
             }
-            (Shape::Walls { .. } | Shape::Centres { .. }, _) => {
-                Shape::Centres { outlines: &self.walls, stock: stock.unwrap_or(&[]) }
-            }
+            (shape @ (Shape::Walls { .. } | Shape::Centres { .. }), _) => Shape::Centres {
+                outlines: &self.walls,
+                stock: stock.unwrap_or(&[]),
+                in_air: matches!(shape, Shape::Centres { in_air: true, .. }),
+            },
         };
         Pocket {
             shape,

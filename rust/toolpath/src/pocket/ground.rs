@@ -7,6 +7,7 @@ use super::error::PocketError;
 use super::growth::WALL;
 use super::polygons::{signed_area, Kernel, Point, Polygons};
 use super::request::{Cleared, Pocket, Shape};
+use super::window::wider;
 
 /// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
 pub const FARTHEST: f64 = 2000.0;
@@ -45,8 +46,7 @@ impl Ground {
         let corners = outlines.iter().flat_map(|(_, outline)| outline.iter());
         let farthest = corners.fold(0.0, |most: f64, [x, y, _]| most.max(x.abs()).max(y.abs()));
         let kernel = Kernel::new(2.0 * farthest + (20.0 + FAR) * r);
-        let mut wide = None;
-        let (walls, free) = match pocket.shape {
+        let (walls, free, wide) = match pocket.shape {
             Shape::Walls { boundary, islands, open_edges, .. } => {
                 let walls = area(&kernel, boundary, islands)?;
                 let free = |far: f64| {
@@ -58,13 +58,15 @@ impl Ground {
                         _ => off_walls(&kernel, &free, boundary, open_edges, kept - NEARER),
                     }
                 };
-                wide = (!open_edges.is_empty()).then(|| free(FAR));
+                let wide = (!open_edges.is_empty()).then(|| free(FAR));
                 let free = free(BEYOND);
-                (Some(walls), free)
+                (Some(walls), free, wide)
             }
-            Shape::Centres { outlines, .. } => {
+            Shape::Centres { outlines, in_air, .. } => {
                 let chords: Vec<Vec<Point>> = outlines.iter().map(|outline| chords(outline)).collect();
-                (None, kernel.offset(&kernel.even_odd(&chords), -(GAP + pocket.leave), WALL))
+                let (all, kept) = (kernel.even_odd(&chords), GAP + pocket.leave);
+                let wide = in_air.then(|| kernel.offset(&within_air(&all, FAR * r), -kept, WALL));
+                (None, kernel.offset(&all, -kept, WALL), wide)
             }
         };
         let core = kernel.offset(&free, -smoothing, WALL);
@@ -159,6 +161,16 @@ fn beyond(kernel: &Kernel, boundary: &[[f64; 3]], open_edges: &[usize], far: f64
         }
     }
     kernel.union_all(&areas)
+}
+
+/// An area with the air beyond its outline, up to a distance, mm.
+fn within_air(area: &Polygons, far: f64) -> Polygons {
+    let around = area.bounds().map(|bounds| {
+        let [[x0, y0], [x1, y1]] = wider(bounds, far);
+        vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
+    });
+    let holes = area.contours.iter().filter(|contour| signed_area(contour) < 0.0).cloned();
+    Polygons { contours: around.into_iter().chain(holes).collect() }
 }
 
 /// Without what is nearer than `distance` to an edge that is not open: beyond an open edge others may lie.

@@ -101,6 +101,8 @@ pub enum Shape<'a> {
         outlines: &'a [Vec<[f64; 3]>],
         /// Outlines of the material.
         stock: &'a [Vec<[f64; 3]>],
+        /// Whether all that lies beyond the outer outline is air.
+        in_air: bool,
     },
 }
 

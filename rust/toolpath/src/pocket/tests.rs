@@ -463,3 +463,19 @@ fn around_a_block_the_front_comes_in_from_the_air() {
     assert_eq!(entries.count(), 0);
     assert!(path.left < 1e-3 * path.goal, "{} of {} mm^2", path.left, path.goal);
 }
+
+#[test]
+fn around_a_block_in_air_passes_are_as_wide_as_straight_ones_may_be() {
+    let (block, air) = ([rectangle(20.0, 15.0)], [rectangle(32.5, 27.5)]);
+    let cut = |in_air: bool| {
+        let shape = Shape::Centres { outlines: &air, stock: &block, in_air };
+        let path = planned(&Pocket { shape, ..pocket(&air[0]) });
+        assert!(path.left < 1e-3 * path.goal, "{} of {} mm^2 are left", path.left, path.goal);
+        length(&path, PocketRunKind::Cut)
+    };
+    // passes that are a full stepover apart, and once around
+    let least = 4.0 * 20.0 * 15.0 / 1.25;
+    let [wide, narrow] = [true, false].map(cut);
+    assert!(wide < 1.35 * least, "{wide} mm, and {least} mm would do");
+    assert!(narrow > 1.15 * wide, "between walls where the air is: {narrow} mm, else {wide} mm");
+}
