@@ -74,7 +74,7 @@ pub use operations::{
     BridgedFace, Context, Coolant, Direction, Edges, Effort, End, Fact, Feeds, Operation, OperationKeys, OperationKind,
     OperationSection, PassSpacing, Planned, ReachedFace, Spindle, SurfaceFacts, ZLevel, ZigZag,
 };
-pub use parse::{from_json, from_toml, tool_from_json};
+pub use parse::{from_json, from_toml, tool_from_json, JOB_SCHEMA};
 pub use part::{Curves, Part, Shaped};
 pub use plan::{plan, Channel, OperationSummary, Plan, Setting};
 pub use plates::Holder;
@@ -91,6 +91,3 @@ pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterOperatio
 pub use stock::{BoxStock, CylinderStock, StockSection};
 pub use summary::Summary;
 pub use up_axis::UpAxis;
-
-/// Version of the job document; older ones migrate, newer ones are refused.
-pub const JOB_SCHEMA: u32 = 1;

@@ -6,7 +6,10 @@ use serde_json::{Map, Number, Value};
 use styluscam_geometry::ToolDocument;
 
 use crate::tagged::{unknown, written_path};
-use crate::{check, operations, process, schema, units, JobDocument, JobError, LengthUnit, JOB_SCHEMA};
+use crate::{check, operations, process, schema, units, JobDocument, JobError, LengthUnit};
+
+/// Version of the job document; older ones migrate, newer ones are refused.
+pub const JOB_SCHEMA: u32 = 1;
 
 /// Reads and checks a job written as TOML.
 ///

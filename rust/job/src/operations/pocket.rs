@@ -35,7 +35,7 @@ use crate::{JobError, OperationKeys};
 const MSR: f64 = 0.05;
 /// How far the tool's centre may go beyond the stock, in tool diameters: so far that it is free of it there.
 const BEYOND: f64 = 2.5;
-/// A position so far within a corner of that tells which area it belongs to, mm.
+/// So far within a corner of that lies a position of the area around the stock, mm.
 const CORNER: f64 = 1e-3;
 /// Positions across an area of which some must touch the selected faces, at least.
 const LOOKED: f64 = 24.0;

@@ -3,6 +3,7 @@
 use styluscam_geometry::CutterMaterial;
 
 use super::choice::Choice;
+use super::feed_lines::StarterFeeds;
 use super::part::StarterPart;
 use super::text::{number, quoted, wrapped};
 use super::work::Work;
@@ -22,16 +23,6 @@ const CUTTER: CutterMaterial = CutterMaterial::Carbide;
 const TURNING: &str = "spindle = { mode = \"fixed\", rpm = 1000.0 }\n";
 /// Feeds of a stylus, mm/min: along the path, and down.
 const SLIDING: [f64; 2] = [1500.0, 300.0];
-
-/// Feeds and spindle of every operation of a job.
-pub struct StarterFeeds {
-    /// Lines of the process.
-    pub process: String,
-    /// Lines of each tool.
-    pub tool: String,
-    /// Lines of each operation.
-    pub operations: Vec<String>,
-}
 
 /// For a job, from its operations as they are written without; those for which there are no cutting data are left out of it.
 ///

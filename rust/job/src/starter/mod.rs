@@ -2,6 +2,7 @@
 
 mod choice;
 mod drilling;
+mod feed_lines;
 mod feeds;
 mod operations;
 mod part;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::choice::Choice;
-use super::feeds::StarterFeeds;
+use super::feed_lines::StarterFeeds;
 use super::part::{StarterFace, StarterPart};
 use super::roughing::Allowances;
 use super::sizes::round;
