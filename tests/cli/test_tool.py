@@ -390,7 +390,7 @@ def test_suggest_passes_over_upright_walls(cli: Any, mine: Path, tmp_path: Path)
     made = cli("new", tmp_path / "box.step", "--force")
     assert made.code == 0, made.err
     document = sc.Job.read(tmp_path / "box.toml").document
-    assert [operation["kind"] for operation in document["operations"]] == ["z-level", "zig-zag"]
+    assert [operation["kind"] for operation in document["operations"]] == ["pocket", "z-level", "zig-zag"]
     ran = cli("tool", "suggest", tmp_path / "box.toml", "--library", mine, "--plan", "0", "--json")
     assert ran.code == 0 and ran.json["part"]["passes"].startswith("rows"), ran.err
 

@@ -23,8 +23,8 @@ const ENOUGH: f64 = 0.9;
 const WIDEST: f64 = 0.35;
 /// Narrowest tool, as a share of the stock's larger side: narrower ones take hours for its box.
 const THINNEST: f64 = 0.04;
-/// Narrower tools do not rough, mm: they finish what little there is.
-const STURDY: f64 = 1.0;
+/// Narrower tools do not rough, mm: they finish what little there is, and moves of a few micrometres turn by degrees where they are rounded.
+const STURDY: f64 = 2.0;
 /// A way through the stock at full stepovers is no longer than this, mm, but with the widest tool: that is an hour or two, for in narrow spaces the
 /// real way is some ten times as long.
 const LONGEST: f64 = 6_000.0;

@@ -5,7 +5,7 @@ use styluscam_motion::{FeedMode, Program, Role};
 use crate::segments::{Segment, SegmentKind};
 use crate::tolerances::{SAME_LEVEL, SLACK};
 
-/// Falls of a descent of which single moves are rounded to none, units at most.
+/// Falls that rounding may hide, units at most: of a descent whose moves are rounded to none.
 const ROUNDED_FALL: f64 = 2.0;
 
 /// A move, with what is known of it besides its way.
@@ -41,21 +41,25 @@ pub(super) fn moves_of<'a>(
     own
 }
 
-/// Marks level moves that are part of a descent: those between two falls of hardly more than a unit each, and shorter together than the
-/// tool's radius. Slow descents in short moves are rounded to such.
+/// Marks level moves that are part of a descent: shorter together than the tool's radius, between two moves that fall by hardly more than a
+/// unit, or so steeply that over the length of the level ones they would by no more. Moves of slow descents, and short ones of others,
+/// are rounded to such.
 fn rounded_descents(own: &mut [Own], unit: f64, radius: f64) {
     let is_level = |own: &Own| own.segment.kind == SegmentKind::Lateral && !own.segment.falls();
-    let falls_slowly = |own: &Own| {
-        let fall = own.segment.start.map_or(0.0, |start| start[2] - own.segment.end[2]);
-        own.segment.kind == SegmentKind::Lateral && own.descends && fall <= ROUNDED_FALL * unit + SLACK
-    };
+    let fall = |own: &Own| own.segment.start.map_or(0.0, |start| start[2] - own.segment.end[2]);
+    let falls = |own: &Own| own.segment.kind == SegmentKind::Lateral && own.descends;
     let mut first = 0;
     while first < own.len() {
         let count = own.iter().skip(first).take_while(|own| is_level(own)).count();
         let after = first + count;
         let around = first.checked_sub(1).and_then(|before| Some([own.get(before)?, own.get(after)?]));
         let length: f64 = own.iter().skip(first).take(count).map(|own| own.segment.length()).sum();
-        if length < radius && around.is_some_and(|around| around.into_iter().all(falls_slowly)) {
+        let is_rounded = |around: [&Own; 2]| {
+            let slopes = around.map(|own| fall(own) / own.segment.length());
+            let are_slow = around.into_iter().all(|own| fall(own) <= ROUNDED_FALL * unit + SLACK);
+            around.into_iter().all(falls) && (are_slow || length * slopes[0].min(slopes[1]) <= ROUNDED_FALL * unit)
+        };
+        if length < radius && around.is_some_and(is_rounded) {
             own.iter_mut().skip(first).take(count).for_each(|own| own.descends = true);
         }
         first = after.max(first + 1);
