@@ -263,17 +263,7 @@ impl OperationKind for Drill {
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
         check_solid(context)?;
         let body = context.tool.body(None);
-        let given = PassContext {
-            scene: context.scene,
-            faces: &context.faces,
-            tolerance: context.common.tolerance,
-            smallest_feature: context.common.smallest_feature,
-            top: context.heights.top.unwrap_or(context.scene.top),
-            bottom: context.common.z_bottom,
-            body: &body,
-            to_leave: [0.0; 2],
-            direction: context.common.direction,
-        };
+        let given = PassContext::of(context, &body);
         let (holes, others) = self.holes(&given);
         let skipped = others.len();
         let (holes, across) = in_order(context, &holes)?;

@@ -223,17 +223,7 @@ impl OperationKind for HelixBore {
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
         check_solid(context)?;
         let body = context.tool.body(None);
-        let given = PassContext {
-            scene: context.scene,
-            faces: &context.faces,
-            tolerance: context.common.tolerance,
-            smallest_feature: context.common.smallest_feature,
-            top: context.heights.top.unwrap_or(context.scene.top),
-            bottom: None,
-            body: &body,
-            to_leave: context.common.stock_to_leave(),
-            direction: context.common.direction,
-        };
+        let given = PassContext::of(context, &body);
         let (holes, others) = self.holes(&given);
         let (holes, across) = in_order(context, &holes)?;
         let holes = from_above(holes);

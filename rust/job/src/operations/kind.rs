@@ -137,6 +137,23 @@ pub struct PassContext<'a> {
     pub direction: Direction,
 }
 
+impl<'a> PassContext<'a> {
+    /// As an operation is planned, with its tool's body.
+    pub(super) fn of(context: &'a Context<'_>, body: &'a ToolBody) -> Self {
+        Self {
+            scene: context.scene,
+            faces: &context.faces,
+            tolerance: context.common.tolerance,
+            smallest_feature: context.common.smallest_feature,
+            top: context.heights.top.unwrap_or(context.scene.top),
+            bottom: context.common.z_bottom,
+            body,
+            to_leave: context.common.stock_to_leave(),
+            direction: context.common.direction,
+        }
+    }
+}
+
 /// What is known of a kind without its keys.
 #[derive(Clone, Copy, Debug)]
 pub struct About {
