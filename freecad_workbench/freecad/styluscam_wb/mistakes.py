@@ -30,14 +30,19 @@ def is_fault(error: BaseException) -> bool:
     return not (isinstance(error, EXPECTED) or hasattr(error, "hint"))
 
 
-def reason(error: BaseException) -> str:
-    """An error's message, and its hint what to do, in the words of the panel."""
-    where = str(getattr(error, "where", ""))
-    hint = getattr(error, "hint", "")
-    message = str(error) or type(error).__name__
-    if hasattr(error, "hint"):
-        hint, message = in_labels(hint, where), in_labels(message, where)
+def sentence(error: BaseException, message: str = "", hint: str = "") -> str:
+    """An error's message, and its hint what to do; both as they are, or as they are given."""
+    message = message or str(error) or type(error).__name__
+    hint = hint or getattr(error, "hint", "")
     return f"{message}: {hint}" if hint and hint not in message else message
+
+
+def reason(error: BaseException) -> str:
+    """An error's message, and its hint what to do, in the words of an operation's panel."""
+    if not hasattr(error, "hint"):
+        return sentence(error)
+    where = str(getattr(error, "where", ""))
+    return sentence(error, in_labels(str(error), where), in_labels(error.hint, where))
 
 
 def in_labels(text: str, where: str = "operations") -> str:

@@ -90,7 +90,7 @@ class ToolEditor(QtCore.QObject):
         except Exception as error:
             if mistakes.is_fault(error):
                 raise
-            message, where = mistakes.reason(error), str(getattr(error, "where", ""))
+            message, where = mistakes.sentence(error), str(getattr(error, "where", ""))
             self.drawing.show_stale()
         if not message and not self.label:
             message = translated("The tool has no name: give it one")
