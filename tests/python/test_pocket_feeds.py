@@ -95,7 +95,7 @@ def test_feeds_rise_to_the_reference_and_stay_in_steps() -> None:
     moves = sc.read_gcode(text, "linuxcnc").moves
     inside = moves[(moves["end"][:, 2] < TOP - 1e-6) & (moves["kind"] != RAPID)]
     # the same path at one feed takes longer
-    plain = sc.plan(job(**LEVEL, feeds=FEEDS["feeds"])).programs["main"].duration
+    plain = sc.plan(job(**LEVEL, feeds=FEEDS["feeds"], link_feed=CUT)).programs["main"].duration
     assert sc.plan(asked).programs["main"].duration < 0.9 * plain and len(words) < 0.5 * len(inside)
 
 

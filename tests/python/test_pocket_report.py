@@ -162,7 +162,11 @@ def test_the_largest_angle_is_the_one_that_the_verifier_reports() -> None:
 def test_a_feed_that_is_too_high_shows_in_the_rate() -> None:
     asked = job(**FEEDS)
     posted = text_of(asked).splitlines()
-    cut = max(number for number, line in enumerate(posted) if line.endswith(f"F{CUT:g}"))
+    (found,) = sc.verify("\n".join([*posted, ""]), asked).engagement
+    rate = found.figures.rate
+    assert rate is not None
+    # the word that holds where the rate is largest
+    cut = max(number for number, line in enumerate(posted[: rate.line]) if line.endswith(f"F{CUT:g}"))
     posted[cut] = posted[cut].replace(f"F{CUT:g}", f"F{1.3 * CUT:g}")
     report = sc.verify("\n".join([*posted, ""]), asked)
     (found,) = report.engagement

@@ -123,6 +123,10 @@ pub struct Clearing {
     pub smoothing: f64,
     /// Height over length of the ways into the material, at most.
     pub entry_slope: f64,
+    /// Their highest feed where one is stated, mm/min; else they are no faster than the faster of passes and plunges.
+    pub entry_feed: Option<f64>,
+    /// The highest feed of what cuts nothing, mm/min; infinite where none is stated.
+    pub link_feed: f64,
     /// Height of the stock, mm.
     pub top: f64,
     /// The distance between levels.

@@ -43,7 +43,7 @@ pub(crate) fn faults(program: &Program, segments: &[Segment], assignment: &Assig
 /// other direction. Leads have one of
 /// their feeds, where the job states them; else leads, ramps and links are no faster than the faster of both. Where the job has
 /// the tool slow down at corners, lower feeds are as good; where feeds depend on what is cut, all up to the highest are, and what is cut is
-/// looked at with it (`clearing`).
+/// looked at with it (`clearing`): there too whether what has the feed of a link cuts nothing.
 fn feed_fault(
     operation: &ExpectedOperation,
     (segment, role): (&Segment, Option<Role>),
@@ -52,7 +52,8 @@ fn feed_fault(
     slack: f64,
 ) -> Option<Fault> {
     let is_along_pass = role.is_none_or(|role| role == Role::Cut);
-    let no_faster = feed.min(operation.highest.unwrap_or(operation.cut).max(operation.plunge));
+    let of_links = operation.expectation.clearing().map_or(0.0, |clearing| clearing.link_feed);
+    let no_faster = feed.min(operation.highest.unwrap_or(operation.cut).max(operation.plunge).max(of_links));
     let nearer = |[a, b]: [f64; 2]| if (feed - a).abs() <= (feed - b).abs() { a } else { b };
     let lead = operation.leads.filter(|_| role == Some(Role::Lead)).map(nearer);
     let expected = lead.unwrap_or(match segment.kind {

@@ -78,9 +78,17 @@ fn stops(segments: &[Segment], subject: &Subject, limits: &Limits) -> Vec<Fault>
 /// A rapid down to where only feeds should go.
 fn deep_rapid(segment: &Segment, subject: &Subject, limits: &Limits) -> Option<Fault> {
     let deep = segment.kind == SegmentKind::Rapid && segment.descends() && segment.end[2] < limits.retract - SLACK;
-    // how deep one may go in a hole follows from how far it is drilled: `holes`
-    let deep = deep && holes::hole_of(segment, subject, limits).is_none();
+    // how deep one may go in a hole follows from how far it is drilled: `holes`; over stock that is cleared, from what stands: `clearing`
+    let is_elsewhere = || holes::hole_of(segment, subject, limits).is_some() || clears_stock(segment, subject);
+    let deep = deep && !is_elsewhere();
     deep.then(|| segment.fault(&faults::DEEP_RAPID).measured(segment.end[2], limits.retract))
+}
+
+/// Whether a straight move belongs to an operation whose stock is followed layer by layer.
+fn clears_stock(segment: &Segment, subject: &Subject) -> bool {
+    let operation = segment.expected.and_then(|number| subject.expected.get(number));
+    let clearing = operation.and_then(|operation| operation.expectation.clearing());
+    !segment.travels() && subject.stock.is_some() && clearing.is_some()
 }
 
 fn planes_not_needed(program: &Program, subject: &Subject) -> Vec<Fault> {

@@ -104,12 +104,17 @@ pub struct Pocket {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
     pub entry_feed: Option<f64>,
+    /// Feed of links at depth, through what is cleared, mm/min; max_feed when left out, or without it the machine's rapid rate, within its
+    /// highest feed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
+    pub link_feed: Option<f64>,
     /// How far the tool is lifted off the floor on links at depth, mm.
     #[serde(default)]
     #[schemars(extend("x-unit" = "mm", "minimum" = 0.0, "maximum" = 10.0))]
     pub link_lift: f64,
-    /// Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a minute; links
-    /// have it. The feed of the passes everywhere when left out.
+    /// Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a
+    /// minute. The feed of the passes everywhere when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
     pub max_feed: Option<f64>,
@@ -181,6 +186,14 @@ impl Pocket {
             chip_thinning: self.chip_thinning,
             acceleration: limits.acceleration,
         }
+    }
+
+    /// The feed of links, mm/min.
+    fn feed_of_links(&self, context: &Context<'_>) -> f64 {
+        let (common, limits) = (context.common, &context.machine.limits);
+        let most = limits.max_feed.unwrap_or(f64::INFINITY);
+        let fast = || self.max_feed.unwrap_or_else(|| limits.rapid_rate.max(common.feeds.cut));
+        self.link_feed.unwrap_or_else(fast).min(most)
     }
 
     fn entry_slope(&self) -> f64 {
@@ -292,6 +305,7 @@ impl OperationKind for Pocket {
         Machining { work: CuttingWork::RoughMilling, engagement, pitch: None }
     }
 
+    /// Of what cuts.
     fn highest_feed(&self, common: &OperationKeys) -> Option<f64> {
         Some(self.max_feed.unwrap_or(0.0).max(common.feeds.cut).max(self.entry_feed.unwrap_or(0.0)))
     }
@@ -306,6 +320,8 @@ impl OperationKind for Pocket {
             angle: self.angle(),
             smoothing: self.smoothing(given.body.max_radius()),
             entry_slope: self.entry_slope(),
+            entry_feed: self.entry_feed,
+            link_feed: self.link_feed.or(self.max_feed).unwrap_or(f64::INFINITY),
             top: given.top,
             pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
             left,
@@ -390,7 +406,7 @@ impl Pocket {
         outlines: &[Vec<[f64; 3]>],
         cleared: &mut Cleared,
     ) -> Result<(), JobError> {
-        let Context { scene, common, machine, tool, reference_height, operation, watch, .. } = *context;
+        let Context { common, machine, tool, reference_height, operation, watch, .. } = *context;
         let radius = tool.cutter().at_height(top - floor).0;
         let ([left, finished], direction) = (self.left_and_finished(common.stock_to_leave()), sense(common, true));
         let hole = self.entry_hole.map(EntryHole::outline);
@@ -433,24 +449,40 @@ impl Pocket {
                 arcs && machine.arc.as_ref().is_some_and(|rules| rules.planes.contains(&arc.plane))
                     && machine.posts_arc(ends, arc, reference_height)
             };
-            let layer = Layer {
-                top,
-                floor,
-                heights: Heights { clearance: scene.clearance, retract: scene.retract },
-                plunge: common.feeds.plunge,
-                entry_feed: self.entry_feed.unwrap_or(common.feeds.plunge),
-                entry_slope: self.entry_slope(),
-                feeds: FeedLaw { spare: if arcs { 0.0 } else { CORNERS }, ..self.feed_law(context, radius) },
-                link_lift: self.link_lift,
-                deviation: CHORDS,
-                takes: &takes,
-            };
+            let feeds = FeedLaw { spare: if arcs { 0.0 } else { CORNERS }, ..self.feed_law(context, radius) };
+            let layer = self.layer(context, [top, floor], feeds, &takes);
             cleared.areas += 1;
             cleared.goal += path.goal;
             cleared.moves.extend(segments(&path, &layer).iter().map(|segment: &Segment| segment.to_move(operation)));
         }
         cleared.before = planned;
         Ok(())
+    }
+
+    /// How the tool moves in a layer.
+    fn layer<'a>(
+        &self,
+        context: &Context<'_>,
+        [top, floor]: Depth,
+        feeds: FeedLaw,
+        takes: &'a dyn Fn([[f64; 3]; 2], &Arc) -> bool,
+    ) -> Layer<'a> {
+        let Context { scene, common, machine, .. } = *context;
+        Layer {
+            top,
+            floor,
+            heights: Heights { clearance: scene.clearance, retract: scene.retract },
+            plunge: common.feeds.plunge,
+            entry_feed: self.entry_feed.unwrap_or(common.feeds.plunge),
+            entry_slope: self.entry_slope(),
+            feeds,
+            link_feed: self.feed_of_links(context),
+            rapid_rate: machine.limits.rapid_rate,
+            kept: self.left_and_finished(common.stock_to_leave())[0][0],
+            link_lift: self.link_lift,
+            deviation: CHORDS,
+            takes,
+        }
     }
 
     /// That an area of the level `floor` is not planned.

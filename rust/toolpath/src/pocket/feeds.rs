@@ -61,6 +61,16 @@ impl FeedLaw {
         self.width(self.angle) * self.cut
     }
 
+    /// How long a move from standstill to standstill takes, s.
+    pub(super) fn seconds(&self, length: f64, feed: f64) -> f64 {
+        let (speed, acceleration) = (feed / MINUTE, self.acceleration.unwrap_or(ACCELERATION));
+        if length * acceleration < speed * speed {
+            2.0 * (length / acceleration).sqrt()
+        } else {
+            length / speed + speed / acceleration
+        }
+    }
+
     /// The highest feed for a stepover, mm/min.
     fn allowed(&self, stepover: &Stepover) -> f64 {
         let engaged = libm::acos((1.0 - stepover.width / self.radius).clamp(-1.0, 1.0));

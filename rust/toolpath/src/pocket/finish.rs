@@ -21,7 +21,7 @@ use super::pieces::{pieces, Piece};
 use super::planner::{self, ALLOWED, SLIVER};
 use super::polygons::{Point, Polygons};
 use super::request::{Pocket, PocketPath, PocketRun, PocketRunKind, Shape};
-use super::sequence::link;
+use super::sequence::{link, measure_room};
 use super::steering::around_ring;
 
 /// Around positions at which the last pass would engage too much no strip is left within so many of its widths, and as many more
@@ -70,6 +70,7 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
     if path.left > LEFT * r * r {
         clear_rest(pocket, &ground, &rest, &mut path, watch)?;
     }
+    measure_room(&mut path.runs, &free);
     Ok(path)
 }
 

@@ -52,6 +52,7 @@ impl Frame {
                 let [x, y] = self.at([point[0], point[1]]);
                 *point = [x, y, self.side * point[2]];
             }
+            run.room /= self.scale;
             for stepover in &mut run.stepovers {
                 stepover.travelled /= self.scale;
                 stepover.width /= self.scale;

@@ -24,6 +24,10 @@ const BEYOND: f64 = 2.5;
 const FAR: f64 = 26.0;
 /// Angle of the chords of the air around a corner of two open edges, rad.
 const CHORD: f64 = 0.2;
+/// What is thinner of the stock that an earlier tool left, in tool radii, is not cut for its own sake: it engages 5 degrees.
+const THIN: f64 = 0.004;
+/// It is where nothing thicker is so near, in tool radii.
+const REACH: f64 = 2.0;
 /// How much less walls beyond an open edge are kept from than all others, mm, so that nothing else is cut off.
 const NEARER: f64 = 1e-3;
 
@@ -85,13 +89,25 @@ impl Ground {
         }
         let swept: Vec<Vec<Point>> = pocket.cleared.iter().flat_map(|path| swept(&kernel, path)).collect();
         if !swept.is_empty() {
-            goal = without_slivers(kernel.difference(&goal, &kernel.union_all(&swept)));
+            let left = without_slivers(kernel.difference(&goal, &kernel.union_all(&swept)));
+            goal = thick_parts(&kernel, &left, THIN * r, REACH * r);
         }
         if goal.is_empty() {
             return Err(PocketError::Empty);
         }
         Ok(Self { kernel, free, discs, goal })
     }
+}
+
+/// An area without what is thinner than `thin` and farther than `near` from all that is thicker, mm.
+///
+/// Along walls an earlier tool leaves slivers as thin as its path is exact. Near to more than that they stay, for there they are cut with it.
+fn thick_parts(kernel: &Kernel, area: &Polygons, thin: f64, near: f64) -> Polygons {
+    let thick = kernel.offset(area, -0.5 * thin, 0.1 * thin);
+    if thick.is_empty() {
+        return thick;
+    }
+    kernel.intersection(area, &kernel.offset(&thick, 0.5 * thin + near, WALL))
 }
 
 /// What an earlier tool swept, in outlines.

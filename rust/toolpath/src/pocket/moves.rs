@@ -15,6 +15,10 @@ const SHORTEST: f64 = 0.05;
 const LONG: f64 = 4.0;
 /// Lengths that differ by less are the same, mm.
 const SAME: f64 = 1e-9;
+/// Rapids come down to so far over what is cleared, mm; from there on the tool is fed.
+const GAP: f64 = 0.25;
+/// They do where walls are so far, mm.
+const ROOM: f64 = 0.1;
 
 /// The layer that a path clears, and how the tool moves in it.
 pub struct Layer<'a> {
@@ -30,8 +34,14 @@ pub struct Layer<'a> {
     pub entry_feed: f64,
     /// Height over length of a way into the material.
     pub entry_slope: f64,
-    /// Along cuts; links are as fast as it allows.
+    /// Along cuts.
     pub feeds: FeedLaw,
+    /// Along links at depth, mm/min.
+    pub link_feed: f64,
+    /// Of rapids, mm/min.
+    pub rapid_rate: f64,
+    /// How far the tool is kept from walls everywhere, mm.
+    pub kept: f64,
     /// How much higher than cuts links are, mm.
     pub link_lift: f64,
     /// How far chords may be off arcs that are not taken, mm.
@@ -69,11 +79,12 @@ impl Moves<'_> {
                 self.enter(run);
             }
             PocketRunKind::Cut => {
-                self.come_down(start);
+                self.come_down(start, run);
                 self.cut(run);
             }
+            PocketRunKind::Link if self.has_room(run) && self.is_faster_over(&run.points) => self.leave(),
             PocketRunKind::Link => {
-                self.come_down(start);
+                self.come_down(start, run);
                 self.link(&run.points);
             }
         }
@@ -86,15 +97,21 @@ impl Moves<'_> {
         }
     }
 
-    /// To a position where nothing is left to cut, unless the tool is there.
-    fn come_down(&mut self, to: Vector) {
+    /// Whether no wall is near where the tool comes down for a run.
+    fn has_room(&self, run: &PocketRun) -> bool {
+        run.room + self.layer.kept >= ROOM
+    }
+
+    /// To a position down to which all is cleared, unless the tool is there.
+    fn come_down(&mut self, to: Vector, run: &PocketRun) {
         if self.at.is_some() {
             return;
         }
         let Heights { clearance, retract } = self.layer.heights;
+        let low = if self.has_room(run) { retract.min(to.z + GAP) } else { retract };
         self.segments.push(Segment::rapid(Vector::new(to.x, to.y, clearance)));
-        if retract < clearance {
-            self.segments.push(Segment::rapid(Vector::new(to.x, to.y, retract)));
+        if low < clearance {
+            self.segments.push(Segment::rapid(Vector::new(to.x, to.y, low)));
         }
         self.segments.push(Segment::line(to, self.layer.plunge));
         self.at = Some(to);
@@ -105,7 +122,7 @@ impl Moves<'_> {
         let Layer { top, floor, entry_slope, .. } = *self.layer;
         let Some([x, y, _]) = run.points.first() else { return };
         let start = Vector::new(*x, *y, top);
-        self.come_down(start);
+        self.come_down(start, run);
         let around: f64 = PlanePiece::path(&run.points).iter().map(PlanePiece::length).sum();
         let turns = libm::ceil((top - floor) / (around * entry_slope)).max(1.0);
         let fall = (top - floor) / turns;
@@ -146,9 +163,25 @@ impl Moves<'_> {
         }
     }
 
+    /// Whether a way over the stock, straight up, across and down again, takes less time than a link at depth.
+    fn is_faster_over(&self, points: &[[f64; 3]]) -> bool {
+        let Layer { floor, heights, plunge, rapid_rate, link_feed, .. } = *self.layer;
+        let ([Some([x, y, _]), Some([u, v, _])], true) = ([points.first(), points.last()], self.at.is_some()) else {
+            return false;
+        };
+        let seconds = |length: f64, feed: f64| self.layer.feeds.seconds(length, feed);
+        let [height, across] = [heights.clearance - floor, libm::hypot(u - x, v - y)];
+        let over = seconds(height, rapid_rate)
+            + seconds(across, rapid_rate)
+            + seconds((height - GAP).max(0.0), rapid_rate)
+            + seconds(GAP, plunge);
+        let through: f64 = PlanePiece::path(points).iter().map(PlanePiece::length).sum();
+        over < seconds(through, link_feed)
+    }
+
     /// Along straight lines through what is cleared: up along its beginning and down again along its end.
     fn link(&mut self, points: &[[f64; 3]]) {
-        let Layer { floor, link_lift, feeds, .. } = *self.layer;
+        let Layer { floor, link_lift, link_feed, .. } = *self.layer;
         let pieces = PlanePiece::path(points);
         let whole: f64 = pieces.iter().map(PlanePiece::length).sum();
         let lift = if whole >= LONG * link_lift { link_lift } else { 0.0 };
@@ -161,7 +194,7 @@ impl Moves<'_> {
             for end in inside.chain([to]) {
                 let shares = [start, end].map(|length| (length - from) / (to - from));
                 let heights = [start, end].map(|length| floor + lift.min(length).min((whole - length).max(0.0)));
-                self.piece(&part(piece, shares), heights, feeds.highest.max(feeds.cut), Role::Link);
+                self.piece(&part(piece, shares), heights, link_feed, Role::Link);
                 start = end;
             }
         }

@@ -15,7 +15,7 @@ use super::material::Material;
 use super::pieces::Piece;
 use super::polygons::Point;
 use super::request::{EntryRule, Pocket, PocketPath};
-use super::sequence::sequenced;
+use super::sequence::{measure_room, sequenced};
 use super::steering::around_ring;
 use super::window::Window;
 
@@ -89,7 +89,8 @@ pub fn plan(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketErro
     if !has_room && left > LEFT * whole {
         return Err(planner.no_entry(left));
     }
-    let runs = sequenced(&planner.cuts, &planner.ground, &planner.free, (pocket.radius, pocket.stepovers), watch)?;
+    let mut runs = sequenced(&planner.cuts, &planner.ground, &planner.free, (pocket.radius, pocket.stepovers), watch)?;
+    measure_room(&mut runs, &planner.free);
     Ok(PocketPath { runs, goal: whole, left })
 }
 

@@ -151,13 +151,16 @@ pub struct PocketRun {
     pub kind: PocketRunKind,
     /// The stepover along a cut, where it is measured.
     pub stepovers: Vec<Stepover>,
+    /// How far the positions that walls leave to the tool's centre reach to all sides of where it may come down, mm: the start, of a link
+    /// the end.
+    pub room: f64,
 }
 
 impl PocketRun {
     /// A run of which no stepover is measured.
     #[must_use]
     pub fn new(points: Vec<[f64; 3]>, kind: PocketRunKind) -> Self {
-        Self { points, kind, stepovers: Vec::new() }
+        Self { points, kind, stepovers: Vec::new(), room: 0.0 }
     }
 }
 

@@ -112,7 +112,7 @@ impl Work<'_> {
             let kind = if cut.is_entry { PocketRunKind::Entry } else { PocketRunKind::Cut };
             let is_measured = self.is_measured && !cut.is_entry;
             let stepovers = if is_measured { stepovers(&path, &material, radius) } else { Vec::new() };
-            runs.push(PocketRun { points: path, kind, stepovers });
+            runs.push(PocketRun { stepovers, ..PocketRun::new(path, kind) });
             material = left_of(&self.ground.kernel, &material, [*cut]);
             self.watch.advance(1)?;
         }
@@ -135,6 +135,14 @@ fn begins_at(path: &mut [[f64; 3]], at: Point, radius: f64) -> bool {
         (*x, *y) = (*x + off[0], *y + off[1]);
     }
     true
+}
+
+/// Measures the room of runs among the positions that walls leave to the tool's centre.
+pub fn measure_room(runs: &mut [PocketRun], free: &Material) {
+    for run in runs {
+        let down = if run.kind == PocketRunKind::Link { run.points.last() } else { run.points.first() };
+        run.room = down.map_or(0.0, |[x, y, _]| free.distance([*x, *y]));
+    }
 }
 
 /// To a position, through what is cleared or over it.

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, SQRT_2};
 use styluscam_geometry::{circle_outline, PlanePiece, Stock};
 use styluscam_motion::{Cancelled, Watch};
 
+use super::before;
 use super::own::Own;
 use crate::engagement::{
     engagement, Area, Cleared, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept,
@@ -12,13 +13,14 @@ use crate::engagement::{
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
+use crate::subject::Subject;
 use crate::tolerances::{SAME_LEVEL, SLACK};
 
 /// What the angle may exceed the bound by, rad (half a degree): planning's own account of the material is good to a twentieth.
 const ALLOWED: f64 = 0.5 * PI / 180.0;
 /// An angle from which on a move cuts, rad: of a disc that grazes stock within a hundredth of its radius.
 const CUTS: f64 = 0.14;
-/// The same of a move under a layer, whose walls need not be that exactly below each other: of a disc that grazes stock within a fiftieth.
+/// The same of a move under a layer, whose walls need not be that exactly below each other, and of one with the feed of links: of a disc that grazes stock within a fiftieth.
 const GRAZES: f64 = 0.4;
 /// By how much the rate at which stock is removed may be larger than it may, as a share: feeds and positions are rounded.
 const ROUNDED: f64 = 0.01;
@@ -37,6 +39,8 @@ pub(super) struct Layer<'a> {
     pub unit: f64,
     /// Thickness of chips that count, mm.
     pub chip: f64,
+    /// What rapids have to keep over what stands, mm.
+    pub gap: f64,
     /// What is cut.
     pub stock: &'a Stock,
     /// Where that is, under the layer's top.
@@ -44,6 +48,9 @@ pub(super) struct Layer<'a> {
     /// What was swept in it before.
     pub cleared: &'a [Swept],
     pub gone: &'a Cleared,
+    /// The moves before those of its operation that took of its stock.
+    pub before: &'a [&'a Segment],
+    pub subject: &'a Subject<'a>,
     pub clearing: &'a Clearing,
     pub operation: &'a ExpectedOperation,
 }
@@ -88,6 +95,7 @@ impl Layer<'_> {
     ) -> Result<Vec<PlanePiece>, Cancelled> {
         for found in inside {
             faults.extend(self.fault(found.own, found.doing, &found.measures));
+            faults.extend(self.too_fast(found));
         }
         self.without_stock(inside, watch, faults)?;
         let swept = inside.iter().filter(|found| matches!(found.doing, Doing::Runs | Doing::Enters));
@@ -123,8 +131,11 @@ impl Layer<'_> {
         let on_floor: Vec<(&Own, Doing, PlaneRun)> = on_floor.collect();
         let runs: Vec<PlaneRun> = on_floor.iter().map(|(_, _, run)| run.clone()).collect();
         let Some(found) = self.engagement(&runs, watch)? else { return Ok(()) };
-        for ((own, doing, _), along) in on_floor.iter().zip(&found) {
+        for (number, ((own, doing, _), along)) in on_floor.iter().zip(&found).enumerate() {
             let Some(worst) = worst(&along.measures).filter(|worst| worst.angle > CUTS) else { continue };
+            if !self.stands_over(own, runs.get(..=number).unwrap_or_default(), watch)? {
+                continue;
+            }
             let fault = match doing {
                 Doing::Rapid => own.segment.fault(&faults::RAPID_IN_STOCK).measured(worst.angle.to_degrees(), 0.0),
                 Doing::Links => own.segment.fault(&faults::LINK_IN_STOCK).measured(worst.angle.to_degrees(), 0.0),
@@ -139,11 +150,31 @@ impl Layer<'_> {
         Ok(())
     }
 
+    /// Whether the last of some runs, that of a move which ends above the floor, meets what the operations before left over its end: they may have
+    /// been there on levels that this one has not.
+    fn stands_over(&self, own: &Own, runs: &[PlaneRun], watch: &Watch) -> Result<bool, Cancelled> {
+        let end = own.segment.lowest() - self.gap_of(own);
+        if end <= self.floor + SAME_LEVEL || self.before.is_empty() {
+            return Ok(true);
+        }
+        let cleared = before::cleared(self.before, [self.top, end], self.subject);
+        let found = self.engagement_in(runs, &cleared, watch)?.unwrap_or_default();
+        Ok(found.last().and_then(|along| worst(&along.measures)).is_none_or(|worst| worst.angle > CUTS))
+    }
+
     /// What runs engage; none of a tool without a radius at the layer's top, which cuts nothing there.
     fn engagement(&self, runs: &[PlaneRun], watch: &Watch) -> Result<Option<Vec<RunEngagement>>, Cancelled> {
+        self.engagement_in(runs, self.cleared, watch)
+    }
+
+    fn engagement_in(
+        &self,
+        runs: &[PlaneRun],
+        cleared: &[Swept],
+        watch: &Watch,
+    ) -> Result<Option<Vec<RunEngagement>>, Cancelled> {
         let stock = self.stock();
-        let ground =
-            Ground { radius: self.radius, stock: &stock, pocket: &stock, cleared: self.cleared, chip: self.chip };
+        let ground = Ground { radius: self.radius, stock: &stock, pocket: &stock, cleared, chip: self.chip };
         match engagement(runs, &ground, watch) {
             Ok(found) => Ok(Some(found)),
             Err(EngagementError::Cancelled) => Err(Cancelled),
@@ -171,6 +202,9 @@ impl Layer<'_> {
         let least = angle - self.heading_error(segment);
         let found = match doing {
             Doing::Rapid | Doing::Enters => None,
+            Doing::Below if segment.kind == SegmentKind::Rapid => {
+                (angle > CUTS).then(|| segment.fault(&faults::RAPID_IN_STOCK).measured(degrees, 0.0))
+            }
             Doing::Below => (angle > GRAZES).then(|| segment.fault(&faults::UNDER_STOCK).measured(degrees, 0.0)),
             Doing::Runs | Doing::Links if least > bound + ALLOWED => {
                 Some(segment.fault(&faults::ENGAGEMENT).measured(least.to_degrees(), bound.to_degrees()))
@@ -179,6 +213,19 @@ impl Layer<'_> {
         };
         let at = |fault: Fault| Fault { position: [worst.at[0], worst.at[1], segment.end[2]], ..fault };
         found.map(at)
+    }
+
+    /// A move that cuts, and does not graze, faster than any that is asked for: the feed of links is for what cuts nothing.
+    fn too_fast(&self, Inside { own, doing, measures, .. }: &Inside) -> Option<Fault> {
+        let operation = self.operation;
+        let most = match doing {
+            Doing::Runs | Doing::Links => operation.highest.unwrap_or(operation.cut),
+            Doing::Enters => operation.cut.max(operation.plunge).max(self.clearing.entry_feed.unwrap_or(0.0)),
+            Doing::Rapid | Doing::Below => return None,
+        };
+        let cuts = worst(measures).is_some_and(|worst| worst.angle > GRAZES);
+        let feed = own.feed.filter(|feed| cuts && *feed > (1.0 + ROUNDED) * most)?;
+        Some(own.segment.fault(&faults::FEED).measured(feed, most))
     }
 
     /// More stock removed in a minute than by a straight pass at the largest angle: in the layer, of even depth, more area.
@@ -207,7 +254,7 @@ impl Layer<'_> {
     /// What a move does in the layer; none where it is not in it, or goes straight up.
     fn doing(&self, own: &Own) -> Option<Doing> {
         let segment = own.segment;
-        let lowest = segment.lowest();
+        let lowest = segment.lowest() - self.gap_of(own);
         let start = segment.start.filter(|_| lowest < self.top - SLACK)?;
         let goes_up = !segment.travels() && segment.end[2] >= start[2];
         let falls = own.descends && start[2] > self.floor + SAME_LEVEL;
@@ -219,6 +266,14 @@ impl Layer<'_> {
             SegmentKind::Lateral if falls => Some(Doing::Enters),
             SegmentKind::Lateral | SegmentKind::Retract | SegmentKind::Still if own.is_link => Some(Doing::Links),
             SegmentKind::Lateral | SegmentKind::Retract | SegmentKind::Still => Some(Doing::Runs),
+        }
+    }
+
+    /// What a move has to keep over what stands, mm.
+    fn gap_of(&self, own: &Own) -> f64 {
+        match own.segment.kind {
+            SegmentKind::Rapid => self.gap,
+            SegmentKind::Plunge | SegmentKind::Lateral | SegmentKind::Retract | SegmentKind::Still => 0.0,
         }
     }
 

@@ -195,3 +195,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_pillar_inside_the_rim_is_met_by_a_tool_that_goes_straight_down() {
+    // a ring of radius 6 leaves a pillar of radius 1 about its middle
+    let ring = vec![[6.0, 0.0, 1.0], [-6.0, 0.0, 1.0], [6.0, 0.0, 0.0]];
+    let down = |x: f64| run(vec![[x, 0.0, 0.0]], PlaneRunKind::Probed);
+    let found = measured(&[run(ring, PlaneRunKind::Swept), down(0.0), down(6.0)], R, &[rectangle(20.0, 20.0)]);
+    // the rim itself is free, the circle of an eighth of its radius is in the pillar
+    assert!(found[1].measures[0].angle < 1e-9 && (largest(&found[1]) - 360.0).abs() < 1e-9);
+    assert!(largest(&found[2]) < 1e-9);
+}

@@ -22,6 +22,8 @@ const CORNER: f64 = 0.01;
 const APART: usize = 16;
 /// So many pieces are looked at before, from the last one of the position before on.
 const FOLLOWING: u32 = 3;
+/// Circles on which it is looked for what stands under a tool that goes straight down.
+const RINGS: u32 = 8;
 /// The watch is asked after so many positions.
 const ASKED: usize = 256;
 
@@ -125,7 +127,21 @@ impl Walk {
             self.open.all();
             self.measure(at, travelled, None)
         });
-        RunEngagement { measures: measures.collect() }
+        let mut measures: Vec<Engaged> = measures.collect();
+        if pieces.is_empty() {
+            measures.extend(self.under(start));
+        }
+        RunEngagement { measures }
+    }
+
+    /// What a tool that goes straight down meets of stock that its rim surrounds.
+    fn under(&mut self, at: PlanePoint) -> Vec<Engaged> {
+        let rings = (1..RINGS).map(|ring| {
+            self.open.all();
+            self.keep_standing(&Rim { centre: at, radius: self.radius * f64::from(ring) / f64::from(RINGS) });
+            self.engaged(at, 0.0, None)
+        });
+        rings.collect()
     }
 
     fn run(
@@ -196,13 +212,18 @@ impl Walk {
 
     /// The engagement of the open directions with the tool's centre at a point.
     fn measure(&mut self, at: PlanePoint, travelled: f64, heading: Option<f64>) -> Engaged {
-        let rim = Rim { centre: at, radius: self.radius };
+        self.keep_standing(&Rim { centre: at, radius: self.radius });
+        self.engaged(at, travelled, heading)
+    }
+
+    /// Keeps of the open directions those in which stock stands on a circle.
+    fn keep_standing(&mut self, rim: &Rim) {
         let (exact, thicker) = (self.radius, self.radius + self.chip);
         let scratch = &mut self.scratch;
         // first what leaves least to look at: in most places the stock's outlines
         for area in [&self.pocket, &self.stock] {
             if !self.open.is_empty() {
-                self.open.keep(|interval, left| area.within(&rim, interval, scratch, left));
+                self.open.keep(|interval, left| area.within(rim, interval, scratch, left));
             }
         }
         for (piece, end) in self.pending.iter().rev() {
@@ -213,7 +234,7 @@ impl Walk {
             let swept = if *end > self.behind { piece.up_to(1.0 - (end - self.behind) / length) } else { *piece };
             self.open.keep(|interval, left| rim.outside_sweep(interval, &swept, exact, scratch, left));
         }
-        for number in likely_first(self.near.near(at), self.covering) {
+        for number in likely_first(self.near.near(rim.centre), self.covering) {
             if self.open.is_empty() {
                 break;
             }
@@ -222,12 +243,16 @@ impl Walk {
                 self.covering = number;
             }
         }
-        for (piece, radius) in self.cleared.near(at) {
+        for (piece, radius) in self.cleared.near(rim.centre) {
             if self.open.is_empty() {
                 break;
             }
             self.open.keep(|interval, left| rim.outside_sweep(interval, piece, radius + self.chip, scratch, left));
         }
+    }
+
+    /// What stands in the open directions.
+    fn engaged(&self, at: PlanePoint, travelled: f64, heading: Option<f64>) -> Engaged {
         let width = heading.map_or(0.0, |heading| self.open.width(heading, self.radius));
         Engaged { at, travelled, angle: self.open.total(), width, clearance: self.pocket.clearance(at) }
     }

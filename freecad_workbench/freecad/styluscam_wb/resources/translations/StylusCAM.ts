@@ -143,13 +143,20 @@ Range: 0.1 to 100000 mm/min
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Feed of links at depth, through what is cleared, mm/min; max_feed when left out, or without it the machine's rapid rate, within its
+highest feed.
+Range: 0.1 to 100000 mm/min
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Feed per revolution along the path, mm: the distance between its turns on the part.
 Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a minute; links
-have it. The feed of the passes everywhere when left out.
+        <source>Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a
+minute. The feed of the passes everywhere when left out.
 Range: 0.1 to 100000 mm/min
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -1233,6 +1240,13 @@ Range: 0.1 to 100000 mm/min
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Feed of links at depth, through what is cleared, mm/min; max_feed when left out, or without it the machine's rapid rate, within its
+highest feed.
+Range: 0.1 to 100000 mm/min
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Feed per rev</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1338,8 +1352,8 @@ Range: 0.001 to 20 mm/rev</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a minute; links
-have it. The feed of the passes everywhere when left out.
+        <source>Highest feed, mm/min: where less than a full stepover is cut, the feed rises up to it, so that as much stock is taken in a
+minute. The feed of the passes everywhere when left out.
 Range: 0.1 to 100000 mm/min
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -1586,6 +1600,10 @@ Range: 0 to 1000 mm</source>
     </message>
     <message>
         <source>Lines.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Link feed</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
