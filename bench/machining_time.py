@@ -539,6 +539,7 @@ def main() -> None:
     options = parser.parse_args()
     rows: list[list[str]] = []
     better = 0
+    opencamlib_debian.unpacked(FREECAD)  # once, before all ask for it
     with ProcessPoolExecutor(WORKERS) as pool:
         asked = [(name, options.keep) for name in options.names or candidates()]
         for name, (row, notes, won) in zip(

@@ -61,8 +61,8 @@ def measured(found: OperationEngagement) -> Measured:
     goes_on = (after == before) | (np.abs(moves.starts[after] - moves.ends[before]) < 1e-9)
     engaged = np.maximum(found.angles_deg[1:], found.angles_deg[:-1]) > 0.0
     enters = (moves.kinds == "entry")[after] & (np.hypot(*np.diff(found.points[:, :2], axis=0).T) > 0.0)
-    way = np.cumsum(np.diff(np.concatenate(([False], enters)).astype(int)) == 1)
-    engaged |= enters & np.isin(way, way[enters & engaged])
+    number = np.cumsum(np.diff(np.concatenate(([False], enters)).astype(int)) == 1)
+    engaged |= enters & np.isin(number, number[enters & engaged])
     is_link = (moves.kinds == "link") & (moves.feeds > moves.feeds[moves.kinds == "cut"].max(initial=0.0))
     cutting = float(np.diff(found.distances)[goes_on & engaged & ~is_link[after]].sum())
     links = float((moves.ends - moves.starts)[is_link].sum())
@@ -127,8 +127,8 @@ def main() -> int:
         for found in report.engagement:
             of = measured(found)
             print(
-                f"{name:12} {found.operation:6} {of.length:9.0f} mm at cutting feeds, air {of.air:6.1%}; links {of.links:5.0f} mm, "
-                f"largest {of.angle:5.2f} of {found.bound_deg:.0f} deg"
+                f"{name:12} {found.operation:6} {of.length:9.0f} mm at cutting feeds, air {of.air:6.1%}; "
+                f"links {of.links:5.0f} mm, largest {of.angle:5.2f} of {found.bound_deg:.0f} deg"
             )
             if found.operation == "rest":
                 failed |= of.air > MOST_AIR or of.angle > given.bound + 0.5
