@@ -15,6 +15,8 @@ PYTEST := $(BIN)/python -m pytest
 RUST_FILES = $(shell git ls-files "rust/*.rs")
 # The roots with FreeCAD and LinuxCNC are built while cargo is busy; this is where their log goes.
 ROOTS_LOG := target/roots.log
+# FreeCAD headless and in a window use a core each, so both run at once.
+FREECAD_LOG := target/freecad.log
 
 .PHONY: help
 help: ## Lists these targets
@@ -91,8 +93,9 @@ test: ## Everything: what CI runs
 	  tests/timed.sh wheel $(MAKE) --no-print-directory wheel dev PROFILE=release; \
 	  wait $$roots || { cat $(ROOTS_LOG); [ -z "$${CI:-}" ] || exit 1; }; \
 	  tests/timed.sh pytest $(PYTEST) -n 2 --ignore=tests/freecad --ignore=tests/window; \
-	  tests/timed.sh freecad $(PYTEST) tests/freecad; \
-	  tests/timed.sh window $(PYTEST) tests/window
+	  tests/timed.sh freecad $(PYTEST) tests/freecad >$(FREECAD_LOG) 2>&1 & freecad=$$!; \
+	  failed=0; tests/timed.sh window $(PYTEST) tests/window || failed=1; \
+	  wait $$freecad || failed=1; cat $(FREECAD_LOG); exit $$failed
 	@tests/timed.sh --report
 
 .PHONY: test-long
