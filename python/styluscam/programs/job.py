@@ -16,7 +16,7 @@ from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
 from styluscam.parts import springback, wires
 from styluscam.parts.arrays import PartArrays
-from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
+from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS, UNITLESS
 from styluscam.parts.part import Part, PartLike
 from styluscam.programs.cutting import CuttingData, limits_of, table_text
 from styluscam.programs.machine import Machine
@@ -54,6 +54,8 @@ class Job:
     """The part in the file, once it was read."""
     _part: Part | None
     """The part as it is formed, once it was asked for."""
+    _stock: Part | None
+    """The body in the stock's file, once it was read."""
     _handed: Part | None
     """The part that stands for the file, where a caller gave one."""
     _tool_files: list[Path]
@@ -78,7 +80,7 @@ class Job:
         job = cls.__new__(cls)
         job.engine, job.folder, job.name, job.file = engine, folder, name, file
         job._target = job._handed = part
-        job._part = None
+        job._part = job._stock = None
         job.document = json.loads(engine.to_json())
         job._tool_files = []
         job._take_wires()
@@ -110,7 +112,7 @@ class Job:
 
     def __getstate__(self) -> Document:
         """For pickle and copy; a part that was read travels along."""
-        return {**vars(self), "engine": self.engine.to_json(), "_part": None}
+        return {**vars(self), "engine": self.engine.to_json(), "_part": None, "_stock": None}
 
     def __setstate__(self, state: Document) -> None:
         """From :meth:`__getstate__`."""
@@ -239,8 +241,9 @@ class Job:
         machines = [json.loads(self.engine.machine_of(channel)).get("file") for channel in self.channels]
         named = [self.document["part"]["file"], *machines, *dict.fromkeys(self._tool_files)]
         measured = [] if self._springback is None else springback.files(self._springback)
+        stock = self.document["setup"].get("stock") or {}
         own = [] if self.file is None else [self.file]
-        return own + [self.folder / name for name in [*named, *measured] if name]
+        return own + [self.folder / name for name in [*named, *measured, stock.get("file")] if name]
 
     @property
     def _springback(self) -> Document | None:
@@ -268,6 +271,19 @@ class Job:
             self._part = target.shaped(self.engine, self._deviations()) if self.engine.shapes else target
         return self._part
 
+    def stock(self, progress: Progress | None = None) -> Part | None:
+        """The body in the stock's file, read once; None where the job names none.
+
+        Raises:
+            GeometryError: it cannot be read.
+        """
+        section = self.document["setup"].get("stock") or {}
+        if self._stock is None and section.get("kind") == "mesh":
+            file, part = self.folder / section["file"], self.document["part"]
+            units = section.get("units") or (part.get("units") if file.suffix.lower() in UNITLESS else None)
+            self._stock = Part.read(file, part["tolerance"], units, progress)
+        return self._stock
+
     def _deviations(self) -> list[tuple[FloatArray, FloatArray]]:
         return [] if self._springback is None else springback.read_deviations(self._springback, self.folder)
 
@@ -283,7 +299,8 @@ class Job:
             JobError: the job has no such channel.
         """
         channel_of(channel, self.channels, JobError)
-        return _engine.Scene(self.engine, self.part(progress).engine, channel)
+        part, stock = self.part(progress), self.stock(progress)
+        return _engine.Scene(self.engine, part.engine, channel, None if stock is None else stock.engine)
 
     def tools(self) -> dict[str, Tool]:
         """The job's tools by name: profile, base, shank and holder."""

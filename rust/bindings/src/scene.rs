@@ -15,10 +15,12 @@ pub struct Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (job, part, channel="main"))]
-    fn new(py: Python<'_>, job: &Job, part: &Part, channel: &str) -> PyResult<Self> {
+    #[pyo3(signature = (job, part, channel="main", stock=None))]
+    fn new(py: Python<'_>, job: &Job, part: &Part, channel: &str, stock: Option<&Part>) -> PyResult<Self> {
         let channel = job.channel(channel)?;
-        let scene = py.detach(|| styluscam_job::Scene::new(&job.document, channel, &part.part)).map_err(of_job)?;
+        let body = stock.map(|stock| &stock.part.mesh);
+        let made = || styluscam_job::Scene::with_stock(&job.document, channel, &part.part, body);
+        let scene = py.detach(made).map_err(of_job)?;
         Ok(Self { scene })
     }
 

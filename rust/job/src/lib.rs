@@ -88,6 +88,6 @@ pub use shaping::{
     is_shaped, shaped, AddendumEnd, AddendumKind, AddendumSection, Deviation, MeshPair, SpringbackSection, Stages,
 };
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterOperation, StarterPart};
-pub use stock::{BoxStock, CylinderStock, StockSection};
+pub use stock::{BoxStock, CylinderStock, MeshStock, StockSection};
 pub use summary::Summary;
 pub use up_axis::UpAxis;

@@ -15,10 +15,23 @@ impl Scene {
     /// # Errors
     /// A sheet that is out of range, a stage of too many triangles.
     pub fn new(job: &JobDocument, channel: &'static str, part: &Part) -> Result<Self, JobError> {
-        let mut scene = Self::of(job, channel, part)?;
+        Self::with_stock(job, channel, part, None)
+    }
+
+    /// As [`new`](Self::new), with the body in the stock's file, in the frame of the part's file, where the job names one.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); a body that does not close, or out of which the part sticks.
+    pub fn with_stock(
+        job: &JobDocument,
+        channel: &'static str,
+        part: &Part,
+        body: Option<&Mesh>,
+    ) -> Result<Self, JobError> {
+        let mut scene = Self::of(job, channel, part, body)?;
         for (number, angle) in (1..).zip(shaping::stage_angles(job, part)?) {
             // a face that a stage does not have yet keeps its name
-            let stage = Self::of(job, channel, &shaping::staged(job, part, angle)?)?;
+            let stage = Self::of(job, channel, &shaping::staged(job, part, angle)?, body)?;
             scene.stages.push(Self {
                 stage: Some(number),
                 stage_angle_deg: angle,
@@ -29,7 +42,7 @@ impl Scene {
         Ok(scene)
     }
 
-    fn of(job: &JobDocument, channel: &'static str, part: &Part) -> Result<Self, JobError> {
+    fn of(job: &JobDocument, channel: &'static str, part: &Part, body: Option<&Mesh>) -> Result<Self, JobError> {
         let placed = Placed::new(job, part)?;
         let thickness = placed.sheet.map_or(0.0, |sheet| sheet.thickness);
         let opposite = job.opposite(channel).map(|opposite| opposite.squeeze * thickness);
@@ -38,7 +51,7 @@ impl Scene {
             None => placed,
         };
         let Placed { mesh, target, frame, sheet, fixture, flat, top, zero } = placed;
-        let stock = sheet.is_none().then(|| stock_of(job, mesh.vertices(), mesh.bounds())).transpose()?;
+        let stock = sheet.is_none().then(|| stock_of(job, &mesh, body, &frame)).transpose()?;
         let (stock, stock_words) = stock.unzip();
         let top = stock.as_ref().map_or(top, |stock: &Stock| stock.top.max(top));
         let sorted = || {

@@ -3,6 +3,7 @@
 //! A further kind is one file here and one line in [`StockSection`].
 
 mod block;
+mod body;
 mod cylinder;
 mod kind;
 
@@ -10,9 +11,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use block::BoxStock;
+pub use body::MeshStock;
 pub use cylinder::CylinderStock;
 
-use kind::StockKind;
+pub(crate) use kind::{Around, StockKind};
 
 /// Stock from which the part is cut.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,6 +24,8 @@ pub enum StockSection {
     Box(BoxStock),
     /// An upright cylinder around the part.
     Cylinder(CylinderStock),
+    /// A body of any shape in a file.
+    Mesh(MeshStock),
 }
 
 impl StockSection {
@@ -30,6 +34,7 @@ impl StockSection {
         match self {
             Self::Box(kind) => kind,
             Self::Cylinder(kind) => kind,
+            Self::Mesh(kind) => kind,
         }
     }
 }

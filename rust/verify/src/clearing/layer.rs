@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-use styluscam_geometry::{circle_outline, PlanePiece, Stock};
+use styluscam_geometry::{circle_outline, PlanePiece, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
 use super::before;
@@ -41,8 +41,10 @@ pub(super) struct Layer<'a> {
     pub chip: f64,
     /// What rapids have to keep over what stands, mm.
     pub gap: f64,
-    /// What is cut.
-    pub stock: &'a Stock,
+    /// The outlines of what is cut.
+    pub stock: &'a [Vec<[f64; 3]>],
+    /// Corners of the box of all that is cut, not only in the layer.
+    pub bounds: (Vector, Vector),
     /// Where that is, under the layer's top.
     pub area: &'a Area,
     /// What was swept in it before.
@@ -184,8 +186,9 @@ impl Layer<'_> {
 
     /// The outlines of the stock, and of the hole in it.
     fn stock(&self) -> Vec<Vec<[f64; 3]>> {
-        let hole = self.clearing.hole.map(|(axis, radius)| circle_outline(axis, radius));
-        self.stock.outlines_between([self.top, self.floor]).iter().cloned().chain(hole).collect()
+        let hole = self.clearing.hole.filter(|(axis, _)| self.area.holds(*axis));
+        let hole = hole.map(|(axis, radius)| circle_outline(axis, radius));
+        self.stock.iter().cloned().chain(hole).collect()
     }
 
     /// Whether a point lies in the stock.

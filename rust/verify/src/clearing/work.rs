@@ -52,6 +52,11 @@ impl<'a> Work<'a> {
         Some(Self { operation, clearing, tool, stock, own, before, heights })
     }
 
+    /// Whether the stock is a body, which is not equally wide at all heights.
+    pub fn is_body(&self) -> bool {
+        self.stock.solid().is_some()
+    }
+
     /// Looks at one layer after the other, from the top down.
     pub fn by_layer(
         &self,
@@ -77,9 +82,12 @@ impl<'a> Work<'a> {
     ) -> T {
         let cleared = before::cleared(&self.before, [top, floor], subject);
         let radius = self.tool.cutter().at_height(top - floor).0;
+        // heights are rounded: what is no thicker than that is none
+        let outlines = self.stock.outlines_between([top - limits.unit, floor + limits.unit]);
         look(&Layer {
-            stock: self.stock,
-            area: &Area::new(self.stock.outlines_between([top, floor]), radius.max(LEAST_CELL)),
+            stock: &outlines,
+            bounds: self.stock.bounds(),
+            area: &Area::new(&outlines, radius.max(LEAST_CELL)),
             cleared: &cleared,
             gone: &Cleared::new(&cleared, 0.0),
             before: &self.before,

@@ -16,7 +16,8 @@ mod mesh;
 mod stock;
 mod underside;
 
-use styluscam_geometry::{PlanePiece, Stock};
+use rayon::prelude::*;
+use styluscam_geometry::{PlanePiece, Solid, Stock};
 use styluscam_motion::{ArcPath, Cancelled, Program, Watch};
 
 use crate::engagement::Area;
@@ -52,17 +53,38 @@ pub fn simulate(
     let field = Field { grid, top, tools: &tools, arcs: &arcs, watch };
     let tiles = field.tiles(grid.whole(), &cuts)?;
     let mut heights = assembled(grid, &tiles);
-    if let Some(stock) = subject.stock {
-        clear_beside(stock, grid, &mut heights);
+    let mut before = None;
+    match subject.stock.map(|stock| (stock, stock.solid())) {
+        Some((stock, Some(solid))) => {
+            let upper = upper_side(solid, stock.bottom, grid, watch)?;
+            heights.iter_mut().zip(&upper).for_each(|(height, upper)| *height = height.min(*upper));
+            before = Some(upper);
+        }
+        Some((stock, None)) => clear_beside(stock, grid, &mut heights),
+        None => {}
     }
-    Ok(Simulation { grid, heights, top })
+    Ok(Simulation { grid, heights, top, before })
+}
+
+/// Height of a body's upper side at every node, and of its underside beside it.
+fn upper_side(solid: &Solid, bottom: f64, grid: Grid, watch: &Watch) -> Result<Vec<f64>, Cancelled> {
+    let height = |node: usize| {
+        watch.advance(0)?;
+        let [x, y] = grid.at(node % grid.nodes[0], node / grid.nodes[0]);
+        // its own border belongs to it, whatever arithmetic makes of that
+        let beside = [[-SLACK, -SLACK], [SLACK, -SLACK], [-SLACK, SLACK], [SLACK, SLACK]];
+        let around = || beside.into_iter().filter_map(|[dx, dy]| solid.height_at([x + dx, y + dy])).reduce(f64::max);
+        Ok(solid.height_at([x, y]).or_else(around).unwrap_or(bottom))
+    };
+    (0..grid.count()).into_par_iter().with_min_len(1024).map(height).collect()
 }
 
 /// Lowers to the stock's underside what lies beside it.
 fn clear_beside(stock: &Stock, grid: Grid, heights: &mut [f64]) {
     // its own border belongs to it, whatever arithmetic makes of that
-    let area = Area::new(&stock.outlines, grid.step[0].max(grid.step[1]));
-    let pieces: Vec<PlanePiece> = stock.outlines.iter().flat_map(|outline| PlanePiece::outline(outline)).collect();
+    let outlines = stock.outlines_between([stock.top, stock.bottom]);
+    let area = Area::new(&outlines, grid.step[0].max(grid.step[1]));
+    let pieces: Vec<PlanePiece> = outlines.iter().flat_map(|outline| PlanePiece::outline(outline)).collect();
     let is_on_border = |at: [f64; 2]| pieces.iter().any(|piece| piece.distance(at) <= SLACK);
     for (node, height) in heights.iter_mut().enumerate() {
         let at = grid.at(node % grid.nodes[0], node / grid.nodes[0]);
