@@ -16,8 +16,9 @@ from styluscam.errors import JobError, ToolError
 from styluscam.files import reason, require_end
 from styluscam.parts import springback, wires
 from styluscam.parts.arrays import PartArrays
-from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS, UNITLESS
+from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
 from styluscam.parts.part import Part, PartLike
+from styluscam.programs import stockfile
 from styluscam.programs.cutting import CuttingData, limits_of, table_text
 from styluscam.programs.machine import Machine
 from styluscam.tools import pointsfile
@@ -196,6 +197,11 @@ class Job:
         return str(self.document["title"] or Path(self.document["part"]["file"]).name)
 
     @property
+    def output(self) -> str:
+        """The file that its G-code is written to, the main channel's: as it names it, or by its own name."""
+        return str(self.document["output"]["file"]) or f"{self.name}.ngc"
+
+    @property
     def operations(self) -> list[Document]:
         """The operations in order, with all their defaults; each has the id by which programs and reports call it."""
         sections = enumerate(self.document["operations"], start=1)
@@ -241,9 +247,8 @@ class Job:
         machines = [json.loads(self.engine.machine_of(channel)).get("file") for channel in self.channels]
         named = [self.document["part"]["file"], *machines, *dict.fromkeys(self._tool_files)]
         measured = [] if self._springback is None else springback.files(self._springback)
-        stock = self.document["setup"].get("stock") or {}
         own = [] if self.file is None else [self.file]
-        return own + [self.folder / name for name in [*named, *measured, stock.get("file")] if name]
+        return own + [self.folder / name for name in [*named, *measured] if name] + stockfile.files(self)
 
     @property
     def _springback(self) -> Document | None:
@@ -277,11 +282,8 @@ class Job:
         Raises:
             GeometryError: it cannot be read.
         """
-        section = self.document["setup"].get("stock") or {}
-        if self._stock is None and section.get("kind") == "mesh":
-            file, part = self.folder / section["file"], self.document["part"]
-            units = section.get("units") or (part.get("units") if file.suffix.lower() in UNITLESS else None)
-            self._stock = Part.read(file, part["tolerance"], units, progress)
+        if self._stock is None:
+            self._stock = stockfile.body(self, progress)
         return self._stock
 
     def _deviations(self) -> list[tuple[FloatArray, FloatArray]]:
@@ -300,7 +302,8 @@ class Job:
         """
         channel_of(channel, self.channels, JobError)
         part, stock = self.part(progress), self.stock(progress)
-        return _engine.Scene(self.engine, part.engine, channel, None if stock is None else stock.engine)
+        body = None if stock is None else stock.engine
+        return _engine.Scene(self.engine, part.engine, channel, body, stockfile.earlier(self, progress))
 
     def tools(self) -> dict[str, Tool]:
         """The job's tools by name: profile, base, shank and holder."""

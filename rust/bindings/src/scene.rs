@@ -2,9 +2,9 @@
 
 use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_job::Travel;
+use styluscam_job::{Given, Travel};
 
-use crate::{arrays, errors::of_job, job::Job, part::Part, shapes, sheet::face_name, tool::Tool, walls};
+use crate::{arrays, earlier::Earlier, errors::of_job, job::Job, part::Part, shapes, sheet::face_name, tool::Tool, walls};
 
 /// The part as it lies on the machine of a channel.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -15,11 +15,23 @@ pub struct Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (job, part, channel="main", stock=None))]
-    fn new(py: Python<'_>, job: &Job, part: &Part, channel: &str, stock: Option<&Part>) -> PyResult<Self> {
+    /// With the body of the stock, or what an earlier program left, where the job names either.
+    #[pyo3(signature = (job, part, channel="main", stock=None, earlier=None))]
+    fn new(
+        py: Python<'_>,
+        job: &Job,
+        part: &Part,
+        channel: &str,
+        stock: Option<&Part>,
+        earlier: Option<&Earlier>,
+    ) -> PyResult<Self> {
         let channel = job.channel(channel)?;
-        let body = stock.map(|stock| &stock.part.mesh);
-        let made = || styluscam_job::Scene::with_stock(&job.document, channel, &part.part, body);
+        let given = match (stock, earlier) {
+            (_, Some(earlier)) => Given::Program(&earlier.earlier),
+            (Some(stock), None) => Given::Body(&stock.part.mesh),
+            (None, None) => Given::Nothing,
+        };
+        let made = || styluscam_job::Scene::with_stock(&job.document, channel, &part.part, given);
         let scene = py.detach(made).map_err(of_job)?;
         Ok(Self { scene })
     }

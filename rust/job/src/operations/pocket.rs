@@ -420,7 +420,7 @@ impl Pocket {
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
         // in programs that lean arcs become lines, and their chords turn the heading
         let arcs = common.fit == Fit::Arcs && machine.arc.is_some() && machine.rotary.is_none();
-        let before = if self.rest_machining { context.before.cleared([top, floor]) } else { Vec::new() };
+        let before = context.before.cleared([top, floor], self.rest_machining);
         let is_cleared = |area: &&CentreArea| self.clears.is_all() || is_over_selected(surface, area, floor, radius);
         let mut planned = Repeated::default();
         for area in CentreArea::parted(&all).iter().filter(is_cleared) {

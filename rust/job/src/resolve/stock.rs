@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use styluscam_geometry::{Frame, GeometryError, Mesh, Solid, Stock, Vector};
 
 use crate::numbers::shown;
-use crate::stock::{Around, StockKind};
+use crate::stock::{Around, Given, StockKind};
 use crate::{JobDocument, JobError};
 
 const SECTION: &str = "setup.stock";
@@ -22,27 +22,32 @@ pub fn check(job: &JobDocument) -> Result<(), JobError> {
     section.as_kind().check(SECTION)
 }
 
-/// The stock of a job, work coordinates, with its words where the job states one: else it is the part's box. `body` is what was read for it, in
-/// the frame of the part's file, from which `frame` leads to work coordinates.
+/// The stock of a job, work coordinates, with its words where the job states one: else it is the part's box. The part's triangles are off it by
+/// `deviation` at most, mm; from the frame of its file `frame` leads to work coordinates.
 ///
 /// # Errors
 /// The part sticks out of it; a body that does not close.
 pub fn stock_of(
     job: &JobDocument,
     part: &Mesh,
-    body: Option<&Mesh>,
-    frame: &Frame,
+    (deviation, frame): (f64, &Frame),
+    given: Given<'_>,
 ) -> Result<(Stock, Option<String>), JobError> {
     let (low, high) = part.bounds();
     let Some(section) = &job.setup.stock else { return Ok((Stock::of_box(low, high), None)) };
     let kind = section.as_kind();
-    let body = body.map(|body| Solid::new(&body.placed(frame))).transpose().map_err(not_closed)?;
-    let stock = kind.around(&Around { part: (low, high), body: &body })?;
+    let (body, earlier) = match given {
+        Given::Nothing => (None, None),
+        Given::Body(body) => (Some(Solid::new(&body.placed(frame)).map_err(not_closed)?), None),
+        Given::Program(earlier) => (None, Some(&**earlier)),
+    };
+    let around = Around { part: (low, high), deviation, frame, body: &body, earlier };
+    let stock = kind.around(&around)?;
     if stock.bottom >= stock.top {
         let message = format!("the stock ends at Z{}, and begins at Z{}", shown(stock.top), shown(stock.bottom));
         return Err(JobError::document("conflict", SECTION, message, "raise its top, or lower its bottom"));
     }
-    let words = kind.words(&stock);
+    let words = kind.words(&around, &stock);
     if let Some(point) = outside(part, &stock, kind) {
         let [x, y, z] = [point.x, point.y, point.z].map(|mm| shown((mm * 1e3).round() / 1e3));
         let message = format!("the part sticks out of the stock ({words}) at X{x} Y{y} Z{z}");

@@ -40,7 +40,7 @@ impl StockKind for MeshStock {
         Ok(Stock::of_solid(body))
     }
 
-    fn words(&self, stock: &Stock) -> String {
+    fn words(&self, _: &Around<'_>, stock: &Stock) -> String {
         let (low, high) = stock.bounds();
         let axis = |i: usize, name: &str| {
             let [low, high] = [low, high].map(|corner| shown((corner[i] * 1e3).round() / 1e3));

@@ -44,7 +44,7 @@ impl StockKind for CylinderStock {
         Ok(Stock::cylinder([middle.x, middle.y], radius, [low.z - self.bottom, high.z + self.top]))
     }
 
-    fn words(&self, stock: &Stock) -> String {
+    fn words(&self, _: &Around<'_>, stock: &Stock) -> String {
         let (low, high) = stock.bounds();
         let [diameter, x, y, bottom, top] =
             [high.x - low.x, 0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z, high.z]

@@ -1,18 +1,38 @@
 //! What every kind of stock answers.
 
-use styluscam_geometry::{Solid, Stock, Vector};
+use std::sync::Arc;
 
+use styluscam_geometry::{Frame, Mesh, Solid, Stock, Vector};
+
+use crate::earlier::Earlier;
 use crate::JobError;
 
 /// By how much stock may be smaller than the part, mm: what rounding does to its numbers.
 const SAME: f64 = 1e-6;
 
+/// What was read for stock that a job states by files.
+#[derive(Clone, Copy)]
+pub enum Given<'a> {
+    /// It states none.
+    Nothing,
+    /// The body, in the frame of the part's file.
+    Body(&'a Mesh),
+    /// What the earlier program cut.
+    Program(&'a Arc<Earlier>),
+}
+
 /// What stock is around, work coordinates, mm.
 pub struct Around<'a> {
     /// The part's box.
     pub part: (Vector, Vector),
+    /// How far its triangles are off it at most.
+    pub deviation: f64,
+    /// From the frame of its file to work coordinates.
+    pub frame: &'a Frame,
     /// The body that was read for it.
     pub body: &'a Option<Solid>,
+    /// What was cut before.
+    pub earlier: Option<&'a Earlier>,
 }
 
 /// What a kind of stock answers.
@@ -30,7 +50,7 @@ pub trait StockKind: Sync {
     fn around(&self, around: &Around<'_>) -> Result<Stock, JobError>;
 
     /// In words, with its size.
-    fn words(&self, stock: &Stock) -> String;
+    fn words(&self, around: &Around<'_>, stock: &Stock) -> String;
 
     /// By how much the part may stick out of it, mm.
     fn slack(&self) -> f64 {

@@ -6,6 +6,7 @@ mod block;
 mod body;
 mod cylinder;
 mod kind;
+mod program;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,6 +14,8 @@ use serde::{Deserialize, Serialize};
 pub use block::BoxStock;
 pub use body::MeshStock;
 pub use cylinder::CylinderStock;
+pub use kind::Given;
+pub use program::ProgramStock;
 
 pub(crate) use kind::{Around, StockKind};
 
@@ -26,6 +29,8 @@ pub enum StockSection {
     Cylinder(CylinderStock),
     /// A body of any shape in a file.
     Mesh(MeshStock),
+    /// What an earlier program left.
+    Program(ProgramStock),
 }
 
 impl StockSection {
@@ -35,6 +40,7 @@ impl StockSection {
             Self::Box(kind) => kind,
             Self::Cylinder(kind) => kind,
             Self::Mesh(kind) => kind,
+            Self::Program(kind) => kind,
         }
     }
 }
