@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use serde::Serialize;
 use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Stock, Tool, Vector};
-use styluscam_motion::{EventKind, Move, MoveKind, Program, ToolRecord, Watch};
+use styluscam_motion::{EventKind, Move, Program, ToolRecord, Watch};
 use styluscam_post::machine::{Rapids, ToolChange};
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
@@ -148,7 +148,7 @@ pub fn judge(
 /// What the program of a job, as it reads in a text, cuts of its stock, after all that was cut of it before.
 ///
 /// # Errors
-/// Text that the machine would not take, or that is not the job's; moves whose positions are not known, or of a part that turns; a job without stock.
+/// Text that the machine would not take, or that is not the job's; a part that turns; a job without stock.
 pub fn earlier(job: &JobDocument, text: Text<'_>) -> Result<Earlier, JobError> {
     let refused = |code, message: String, hint| Err(JobError::document(code, "setup.stock.job", message, hint));
     let scene = text.scene;
@@ -157,19 +157,15 @@ pub fn earlier(job: &JobDocument, text: Text<'_>) -> Result<Earlier, JobError> {
         return refused("conflict", message, "name a job that mills");
     };
     let prepared = Prepared::new(job, text)?;
-    let Reading { program, unknown_positions, axes, .. } = &prepared.reading;
+    let Reading { program, axes, .. } = &prepared.reading;
     let missing = |expected: &&ExpectedOperation| program.operations.iter().all(|own| own.id != expected.id);
     if let Some(expected) = prepared.against.expected.iter().find(missing) {
         let message = format!("the earlier program has no operation {:?}: it is not that of its job", expected.id);
         return refused("another-program", message, "post the earlier job again, or name its file by file");
     }
-    let is_unknown = |index: usize| unknown_positions.iter().any(|run| run.contains(&index));
-    let is_blind = |(index, step): (usize, &Move)| {
-        step.kind == MoveKind::Feed && (is_unknown(index) || index.checked_sub(1).is_none_or(is_unknown))
-    };
-    if axes.is_some() || program.moves.iter().enumerate().any(is_blind) {
-        let message = "the earlier program has moves whose positions on the part are not known".to_owned();
-        return refused("unknown-position", message, "post it for a machine of three axes");
+    if axes.is_some() {
+        let message = "the earlier program turns the part, and what it cuts of the stock is not known".to_owned();
+        return refused("conflict", message, "name a job for a machine of three axes");
     }
     let mut upcoming = program.upcoming();
     let mut tool = 0;
