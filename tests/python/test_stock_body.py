@@ -74,6 +74,10 @@ def facts(asked: sc.Job) -> dict[str, float]:
     return {fact.fact: fact.value for fact in operation.facts}
 
 
+VOID = box((1.0, 1.0, 1.0), (1.5, 1.5, 1.5))[:, ::-1]
+"""A hollow within a body, where the part is solid."""
+
+
 def casting() -> Floats:
     return np.concatenate([box(LOW, HIGH), box(*BOSS)])
 
@@ -181,7 +185,9 @@ def test_the_body_moves_with_the_part(tmp_path: Path) -> None:
     documents = [one.to_dict() for one in asked]
     documents[0]["setup"] |= turned
     # the same corners, turned and moved
-    documents[1]["setup"] |= turned | {"stock": {"kind": "box", "low": [-22.0, -5.0, -2.0], "high": [-4.0, 17.0, HIGH[2] - 2.0]}}
+    documents[1]["setup"] |= turned | {
+        "stock": {"kind": "box", "low": [-22.0, -5.0, -2.0], "high": [-4.0, 17.0, HIGH[2] - 2.0]}
+    }
     for document in documents:
         document["operations"][0]["z_bottom"] = TOP - 4.0
     texts = [text_of(sc.Job.from_dict(document, tmp_path, part=block())) for document in documents]
@@ -194,7 +200,7 @@ def test_the_body_moves_with_the_part(tmp_path: Path) -> None:
         (box(LOW, HIGH)[:-1], "setup.stock.file", "not-closed", "not closed near"),
         (box((1.0, -1.0, 0.0), HIGH), "setup.stock", "conflict", "sticks out"),
         (box(LOW, (21.0, 17.0, TOP - 0.1)), "setup.stock", "conflict", "sticks out"),
-        (np.concatenate([box(LOW, HIGH), box((1.0, 1.0, 1.0), (1.5, 1.5, 1.5))[:, ::-1]]), "setup.stock", "conflict", "sticks out"),
+        (np.concatenate([box(LOW, HIGH), VOID]), "setup.stock", "conflict", "sticks out"),
     ],
 )
 def test_a_body_that_is_open_or_too_small_is_refused(

@@ -99,7 +99,9 @@ def test_a_job_on_what_a_program_left_plans_what_the_second_operation_does(
     whole: tuple[sc.Plan, str], second: tuple[sc.Plan, str]
 ) -> None:
     assert moves(second[1], "rest") == moves(whole[1], "rest") and len(moves(second[1], "rest")) > 100
-    of_whole, of_second = ([fact.value for fact in plan.summary()[0].operations[-1].facts] for plan, _ in (whole, second))
+    of_whole, of_second = (
+        [fact.value for fact in plan.summary()[0].operations[-1].facts] for plan, _ in (whole, second)
+    )
     assert of_second == pytest.approx(of_whole, rel=1e-6)
 
 
@@ -115,7 +117,9 @@ def test_it_is_sound_and_engages_the_same(whole: tuple[sc.Plan, str], second: tu
     assert found.touched.any() and found.touched.mean() < 0.5
 
 
-def test_all_that_is_cleared_is_gone_without_asking_for_rest_machining(folder: Path, second: tuple[sc.Plan, str]) -> None:
+def test_all_that_is_cleared_is_gone_without_asking_for_rest_machining(
+    folder: Path, second: tuple[sc.Plan, str]
+) -> None:
     asked = written(folder, "side-2-plain", document(LEFT, REST | {"rest_machining": False}))
     text = text_of(asked)
     assert moves(text, "rest") == moves(second[1], "rest") and kinds(asked, text.splitlines()) == set()
@@ -180,7 +184,9 @@ def test_a_program_that_does_not_fit_is_refused(
 ) -> None:
     text = (folder / "side-1.ngc").read_text()
     (folder / "other.ngc").write_text(text.replace("(operation rough:", "(operation fine:"))
-    (folder / "unknown.ngc").write_text(text.replace("(operation rough: pocket)", "(operation rough: pocket)\nG1 X5 F100"))
+    (folder / "unknown.ngc").write_text(
+        text.replace("(operation rough: pocket)", "(operation rough: pocket)\nG1 X5 F100")
+    )
     (folder / "smaller.stl").write_text(stl(box((0.0, 0.0, 0.0), (19.0, 16.0, 6.0))))
     other = document(STOCK, ROUGH)
     other["part"] = {"file": "smaller.stl", "units": "mm"}

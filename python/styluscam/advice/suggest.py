@@ -18,7 +18,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from styluscam import _engine
 from styluscam.advice import reach
 from styluscam.advice.facts import Facts, OperationFacts, WallShare
 from styluscam.advice.walls import BIN_DEG, Classes, Walls, walls_of

@@ -147,7 +147,7 @@ class Simulation:
 
     @property
     def before(self) -> FloatArray:
-        """Height before the first move: at every node of stock that is a body, (rows, columns); else that of the level top, ()."""
+        """Height before any move: of every node, (rows, columns), of stock that is a body or cut before; else of all, ()."""
         levels = self.engine.before
         return np.asarray(self.engine.top if levels is None else levels)
 

@@ -248,7 +248,10 @@ class Job:
         named = [self.document["part"]["file"], *machines, *dict.fromkeys(self._tool_files)]
         measured = [] if self._springback is None else springback.files(self._springback)
         own = [] if self.file is None else [self.file]
-        return own + [self.folder / name for name in [*named, *measured] if name] + stockfile.files(self)
+        mesh, before = stockfile.section_of(self.document, "mesh"), self._before()
+        named += [] if mesh is None else [mesh["file"]]
+        earlier = [] if before is None else [*before[0].inputs(), before[1]]
+        return own + [self.folder / name for name in [*named, *measured] if name] + earlier
 
     @property
     def _springback(self) -> Document | None:
@@ -283,7 +286,7 @@ class Job:
             GeometryError: it cannot be read.
         """
         if self._stock is None:
-            self._stock = stockfile.body(self, progress)
+            self._stock = stockfile.body(self.document, self.folder, progress)
         return self._stock
 
     def _deviations(self) -> list[tuple[FloatArray, FloatArray]]:
@@ -303,7 +306,29 @@ class Job:
         channel_of(channel, self.channels, JobError)
         part, stock = self.part(progress), self.stock(progress)
         body = None if stock is None else stock.engine
-        return _engine.Scene(self.engine, part.engine, channel, body, stockfile.earlier(self, progress))
+        return _engine.Scene(self.engine, part.engine, channel, body, self._earlier(progress))
+
+    def _earlier(self, progress: Progress | None) -> _engine.Earlier | None:
+        """What the program cut that left the stock; None where the job names none."""
+        before = self._before()
+        if before is None:
+            return None
+        job, file = before
+        text = stockfile.program(file, job.file or job.folder)
+        return job.scene(progress).left_by(job.engine, job.machine().engine, text)
+
+    def _before(self) -> tuple[Job, Path] | None:
+        """The job that left the stock, which comes not back to this one by those before it, and its program's file."""
+        first, before = None, self
+        seen = set() if self.file is None else {self.file.resolve()}
+        while (section := stockfile.section_of(before.document, "program")) is not None:
+            earlier = Job.read(before.folder / section["job"])
+            file = before.folder / section["file"] if section.get("file") else earlier.folder / earlier.output
+            first = first or (earlier, file)
+            stockfile.require_new((before.folder / section["job"]).resolve(), seen)
+            seen.add((before.folder / section["job"]).resolve())
+            before = earlier
+        return first
 
     def tools(self) -> dict[str, Tool]:
         """The job's tools by name: profile, base, shank and holder."""

@@ -1,10 +1,15 @@
 //! The part as it lies on the machine.
 
+use std::sync::Arc;
+
 use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_job::{Given, Travel};
+use styluscam_job::{Given, Text, Travel};
 
-use crate::{arrays, earlier::Earlier, errors::of_job, job::Job, part::Part, shapes, sheet::face_name, tool::Tool, walls};
+use crate::{
+    arrays, earlier::Earlier, errors::of_job, job::Job, machine::Machine, part::Part, shapes, sheet::face_name,
+    tool::Tool, walls,
+};
 
 /// The part as it lies on the machine of a channel.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -34,6 +39,13 @@ impl Scene {
         let made = || styluscam_job::Scene::with_stock(&job.document, channel, &part.part, given);
         let scene = py.detach(made).map_err(of_job)?;
         Ok(Self { scene })
+    }
+
+    /// What the program of its job in a text leaves of its stock.
+    fn left_by(&self, py: Python<'_>, job: &Job, machine: &Machine, text: &str) -> PyResult<Earlier> {
+        let text = Text { scene: &self.scene, machine: &machine.machine, text };
+        let earlier = py.detach(|| styluscam_job::earlier(&job.document, text)).map_err(of_job)?;
+        Ok(Earlier { earlier: Arc::new(earlier) })
     }
 
     /// Rows of the matrix from the file's frame to work coordinates.

@@ -10,8 +10,8 @@ use styluscam_motion::{EventKind, Move, Program, ToolRecord, Watch};
 use styluscam_post::machine::{Rapids, ToolChange};
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    cut_by, turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle,
-    Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
+    cut_by, turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need,
+    Obstacle, Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
@@ -19,8 +19,8 @@ use crate::numbers::shown;
 use crate::operations::{LeadForm, LinkHeight};
 use crate::resolve::{check_part, faces_of, heights_of, layers_of, passes_of, region_of, tools_in_order};
 use crate::{
-    clamp, forming, materials, model, plates, portion, spindle, Coolant, Earlier, JobDocument, JobError, OperationSection,
-    Scene, SheetSection,
+    clamp, forming, materials, model, plates, portion, spindle, Coolant, Earlier, JobDocument, JobError,
+    OperationSection, Scene, SheetSection,
 };
 
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming

@@ -1,4 +1,4 @@
-//! Stock: the material that a part is cut from.
+//! Stock: the material that a part is cut from; how: docs/concepts/stock.md.
 
 mod slab;
 mod solid;

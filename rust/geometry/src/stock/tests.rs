@@ -44,8 +44,17 @@ fn turned(profile: &[[f64; 2]], sides: i64) -> Mesh {
 
 /// A mushroom with a hollow cap, leaning: sides that lean both ways, and an overhang.
 fn mushroom(turn: f64) -> Solid {
-    let profile =
-        [[0.0, 0.0], [4.0, 0.5], [3.0, 8.0], [9.0, 7.0], [12.0, 9.5], [10.0, 14.0], [4.0, 15.0], [2.0, 12.0], [0.0, 11.5]];
+    let profile = [
+        [0.0, 0.0],
+        [4.0, 0.5],
+        [3.0, 8.0],
+        [9.0, 7.0],
+        [12.0, 9.5],
+        [10.0, 14.0],
+        [4.0, 15.0],
+        [2.0, 12.0],
+        [0.0, 11.5],
+    ];
     Solid::new(&turned(&profile, 23).placed(&Frame::turning_up(Vector::new(0.3, -0.2, 1.0).normalize(), turn))).unwrap()
 }
 
@@ -65,9 +74,7 @@ fn a_box_is_bounded_by_its_corners() {
 #[test]
 fn there_is_none_above_its_top_and_below_its_underside() {
     let (low, high) = (Vector::new(0.0, 0.0, -2.0), Vector::new(9.0, 9.0, 4.0));
-    for stock in
-        [Stock::cylinder([0.0; 2], 5.0, [-2.0, 4.0]), Stock::of_solid(solid(&[box_mesh(low, high)]))]
-    {
+    for stock in [Stock::cylinder([0.0; 2], 5.0, [-2.0, 4.0]), Stock::of_solid(solid(&[box_mesh(low, high)]))] {
         assert!(stock.outlines_between([6.0, 4.0]).is_empty() && stock.outlines_between([-2.0, -3.0]).is_empty());
         assert_eq!(stock.outlines_between([6.0, 3.0]).len(), 1);
     }

@@ -33,12 +33,11 @@ impl Before<'_> {
     /// What is cleared of a layer from `top` to `floor` (mm), as it looks under its top: by earlier programs, and by the operations before it
     /// where those count too.
     pub fn cleared(&self, layer: [f64; 2], do_operations_count: bool) -> Vec<Cleared> {
-        let by_programs = self.earlier.map_or_else(Vec::new, |earlier| {
-            cleared(&earlier.moves, |tool| earlier.tools.get(tool as usize), layer)
-        });
-        let own = do_operations_count.then(|| {
-            cleared(self.moves, |operation| self.tools.get(operation as usize).copied(), layer)
-        });
+        let by_programs = self
+            .earlier
+            .map_or_else(Vec::new, |earlier| cleared(&earlier.moves, |tool| earlier.tools.get(tool as usize), layer));
+        let own = do_operations_count
+            .then(|| cleared(self.moves, |operation| self.tools.get(operation as usize).copied(), layer));
         by_programs.into_iter().chain(own.into_iter().flatten()).collect()
     }
 }

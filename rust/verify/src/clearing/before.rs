@@ -37,11 +37,7 @@ impl<'a> Took<'a> {
     }
 }
 
-fn swept<'s>(
-    stretches: &'s [Stretch],
-    tools: &'s [Tool],
-    [top, floor]: [f64; 2],
-) -> impl Iterator<Item = Swept> + 's {
+fn swept<'s>(stretches: &'s [Stretch], tools: &'s [Tool], [top, floor]: [f64; 2]) -> impl Iterator<Item = Swept> + 's {
     stretches.iter().filter(|stretch| !stretch.is_rapid).filter_map(move |stretch| {
         let start = stretch.start?;
         let highest = start[2].max(stretch.end[2]);

@@ -42,8 +42,8 @@ pub(super) fn missing(
         let is_everywhere = work.is_even && !(work.clearing.rest || work.clearing.all);
         let mut is_owed = is_everywhere || layers.is_empty();
         for layer in layers {
-            is_owed = is_owed
-                || work.in_layer(layer, limits, |layer| has_stock(layer, &floor, body, subject, watch))?;
+            is_owed =
+                is_owed || work.in_layer(layer, limits, |layer| has_stock(layer, &floor, body, subject, watch))?;
         }
         findings.extend(is_owed.then_some(finding));
     }

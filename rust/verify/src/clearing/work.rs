@@ -70,12 +70,7 @@ impl<'a> Work<'a> {
     }
 
     /// Looks at what lies between two heights.
-    pub fn in_layer<T>(
-        &self,
-        [top, floor]: [f64; 2],
-        limits: &Limits,
-        look: impl FnOnce(&Layer<'_>) -> T,
-    ) -> T {
+    pub fn in_layer<T>(&self, [top, floor]: [f64; 2], limits: &Limits, look: impl FnOnce(&Layer<'_>) -> T) -> T {
         let cleared = self.before.cleared([top, floor]);
         let radius = self.tool.cutter().at_height(top - floor).0;
         // heights are rounded: what is no thicker than that is none

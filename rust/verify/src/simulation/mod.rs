@@ -21,8 +21,8 @@ use styluscam_geometry::{PlanePiece, Sheet, Solid, Stock, Tool};
 use styluscam_motion::{ArcPath, Cancelled, Program, Watch};
 
 use crate::before::Stretch;
-use crate::engagement::Area;
 use crate::earlier::stretches;
+use crate::engagement::Area;
 use crate::segments::placed;
 use crate::subject::{Limits, Subject};
 use crate::tolerances::SLACK;

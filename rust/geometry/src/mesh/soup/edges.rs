@@ -57,8 +57,7 @@ pub fn is_closed(triangles: &[[u32; 3]], edges: &Edges) -> bool {
 pub fn gap(triangles: &[[u32; 3]], edges: &Edges) -> Option<u32> {
     let agrees = |half: u32, twin: u32| twin == NONE || ends(triangles, half).0 == ends(triangles, twin).1;
     let apart = (0..).zip(&edges.twins).find(|(half, twin)| !agrees(*half, **twin)).map(|(half, _)| half);
-    let is_even =
-        |edge: &&Vec<u32>| 2 * edge.iter().filter(|half| is_forward(triangles, **half)).count() == edge.len();
+    let is_even = |edge: &&Vec<u32>| 2 * edge.iter().filter(|half| is_forward(triangles, **half)).count() == edge.len();
     apart.or_else(|| edges.odd.iter().find(|edge| !is_even(edge)).and_then(|edge| edge.first().copied()))
 }
 
