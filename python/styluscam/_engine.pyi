@@ -13,6 +13,7 @@ _Progress = Callable[[str, float], bool | None]
 
 __all__ = [
     "CancelToken",
+    "Earlier",
     "ElementarySurface",
     "FootSearch",
     "Job",
