@@ -31,7 +31,7 @@ impl Earlier {
         Self {
             moves: before.moves.iter().copied().chain(own).collect(),
             tools: before.tools.iter().cloned().chain(self.tools).collect(),
-            cut: before.cut.then(self.cut),
+            cut: before.cut.then(&self.cut),
             ..self
         }
     }

@@ -28,7 +28,7 @@ pub(crate) struct Stretch {
 impl Before {
     /// With what comes after it.
     #[must_use]
-    pub fn then(&self, after: Self) -> Self {
+    pub fn then(&self, after: &Self) -> Self {
         let first = self.tools.len();
         let later =
             after.stretches.iter().map(|stretch| Stretch { tool: stretch.tool.map(|tool| tool + first), ..*stretch });
