@@ -30,6 +30,11 @@ impl<'a> Took<'a> {
         Self { earlier, own: before.flat_map(stretches).collect(), tools }
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.own.is_empty() && self.earlier.is_none()
+    }
+
     /// What they sweep of the layer from its top to its floor, as it looks under its top: feeds on which the tip is as low as the floor.
     pub fn cleared(&self, layer: [f64; 2]) -> Vec<Swept> {
         let of_programs = self.earlier.iter().flat_map(|before| swept(&before.stretches, &before.tools, layer));

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, SQRT_2};
 use styluscam_geometry::{circle_outline, PlanePiece, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
-use super::before;
+use super::before::Took;
 use super::own::Own;
 use crate::engagement::{
     engagement, Area, Cleared, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept,
@@ -13,7 +13,6 @@ use crate::engagement::{
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
-use crate::subject::Subject;
 use crate::tolerances::{SAME_LEVEL, SLACK};
 
 /// What the angle may exceed the bound by, rad (half a degree): planning's own account of the material is good to a twentieth.
@@ -50,9 +49,8 @@ pub(super) struct Layer<'a> {
     /// What was swept in it before.
     pub cleared: &'a [Swept],
     pub gone: &'a Cleared,
-    /// The moves before those of its operation that took of its stock.
-    pub before: &'a [&'a Segment],
-    pub subject: &'a Subject<'a>,
+    /// What took of the stock before its operation.
+    pub before: &'a Took<'a>,
     pub clearing: &'a Clearing,
     pub operation: &'a ExpectedOperation,
 }
@@ -159,7 +157,7 @@ impl Layer<'_> {
         if end <= self.floor + SAME_LEVEL || self.before.is_empty() {
             return Ok(true);
         }
-        let cleared = before::cleared(self.before, [self.top, end], self.subject);
+        let cleared = self.before.cleared([self.top, end]);
         let found = self.engagement_in(runs, &cleared, watch)?.unwrap_or_default();
         Ok(found.last().and_then(|along| worst(&along.measures)).is_none_or(|worst| worst.angle > CUTS))
     }

@@ -82,7 +82,6 @@ impl<'a> Work<'a> {
             cleared: &cleared,
             gone: &Cleared::new(&cleared, 0.0),
             before: &self.before,
-            subject,
             top,
             floor,
             radius,
