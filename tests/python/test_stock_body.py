@@ -131,7 +131,7 @@ def test_clearance_and_retract_count_from_the_top_of_a_body(cast: tuple[sc.Job, 
 
 
 def test_a_text_for_a_box_goes_through_the_boss_of_a_casting(cast: tuple[sc.Job, str], tmp_path: Path) -> None:
-    assert {"missing-level", "deep-rapid"} <= kinds(cast[0], text_of(job(BOX, tmp_path)).splitlines())
+    assert {"missing-level", "low-rapid"} <= kinds(cast[0], text_of(job(BOX, tmp_path)).splitlines())
     # rapids and entries over the pocket, which lies under the boss
     folder = tmp_path / "wide"
     folder.mkdir()
