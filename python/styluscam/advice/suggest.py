@@ -18,7 +18,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from styluscam import _engine
 from styluscam.advice import reach
 from styluscam.advice.facts import Facts, OperationFacts, WallShare
 from styluscam.advice.walls import BIN_DEG, Classes, Walls, walls_of
@@ -250,7 +249,7 @@ def _asked_by(job: Job, progress: Progress | None) -> list[_Asked]:
     document, found = job.document, []
     sheet = document["setup"].get("sheet") or {}
     thickness = float(sheet.get("thickness", 0.0))
-    scene = _engine.Scene(job.engine, job.part(progress).engine)
+    scene = job.scene(progress)
     ball, bound = scene.sheet_ball, scene.fitting_radius
     fits = math.inf if bound is None else bound
     for index, name in enumerate(job.engine.operation_ids()):

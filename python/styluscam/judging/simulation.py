@@ -115,13 +115,14 @@ class Simulation:
         if not isinstance(other, Simulation):
             return NotImplemented
         mine, theirs = ((one.engine.origin, one.engine.step, one.engine.top, one._face) for one in (self, other))
-        return mine == theirs and np.array_equal(self.heights, other.heights)
+        same = mine == theirs and np.array_equal(self.heights, other.heights)
+        return same and np.array_equal(self.before, other.before)
 
     __hash__ = None  # type: ignore[assignment]  # arrays can be written to
 
     def __getstate__(self) -> Document:
         """For pickle and copy."""
-        engine = (self.engine.origin, self.engine.step, self.engine.heights, self.engine.top)
+        engine = (self.engine.origin, self.engine.step, self.engine.heights, self.engine.top, self.engine.before)
         return {**vars(self), "engine": engine}
 
     def __setstate__(self, state: Document) -> None:
@@ -145,9 +146,15 @@ class Simulation:
         return np.stack([x, y, self.heights], axis=-1)
 
     @property
+    def before(self) -> FloatArray:
+        """Height before any move: of every node, (rows, columns), of stock that is a body or cut before; else of all, ()."""
+        levels = self.engine.before
+        return np.asarray(self.engine.top if levels is None else levels)
+
+    @property
     def touched(self) -> npt.NDArray[np.bool_]:
         """Nodes that the program lowered, (rows, columns)."""
-        return np.asarray(self.heights < self.engine.top - UNTOUCHED)
+        return np.asarray(self.heights < self.before - UNTOUCHED)
 
     def mesh(self, tolerance: float = 0.005) -> tuple[FloatArray, IntArray]:
         """Vertices (V, 3) and triangles (T, 3), counterclockwise from outside: many where the surface bends, few where not.

@@ -14,7 +14,7 @@ from styluscam.errors import GeometryError
 from styluscam.extras import require
 from styluscam.parts.arrays import FaceInfo, Ints, PartArrays, area_vectors, describe_face
 from styluscam.parts.facets import Facets
-from styluscam.parts.formats import UNITS
+from styluscam.parts.formats import UNITLESS, UNITS
 from styluscam.parts.mending import Mending
 from styluscam.parts.progress import Progress, report
 from styluscam.parts.stl import read_stl
@@ -114,7 +114,7 @@ def _error(file: Path, what: str, cure: str, code: str) -> GeometryError:
 
 def _scale(file: Path, units: str | None) -> tuple[float, str]:
     """Return the factor to mm, and the unit's name. 3MF carries its own."""
-    if file.suffix.lower() == ".3mf":
+    if file.suffix.lower() not in UNITLESS:
         if units is not None:
             raise _error(file, "a .3mf file carries its units", f"remove units = {units!r}", "part-units-not-wanted")
         return 1.0, "mm"

@@ -18,6 +18,7 @@ from styluscam.parts import springback, wires
 from styluscam.parts.arrays import PartArrays
 from styluscam.parts.formats import BREP_ENDINGS, MESH_ENDINGS
 from styluscam.parts.part import Part, PartLike
+from styluscam.programs import stockfile
 from styluscam.programs.cutting import CuttingData, limits_of, table_text
 from styluscam.programs.machine import Machine
 from styluscam.tools import pointsfile
@@ -54,6 +55,8 @@ class Job:
     """The part in the file, once it was read."""
     _part: Part | None
     """The part as it is formed, once it was asked for."""
+    _stock: Part | None
+    """The body in the stock's file, once it was read."""
     _handed: Part | None
     """The part that stands for the file, where a caller gave one."""
     _tool_files: list[Path]
@@ -78,7 +81,7 @@ class Job:
         job = cls.__new__(cls)
         job.engine, job.folder, job.name, job.file = engine, folder, name, file
         job._target = job._handed = part
-        job._part = None
+        job._part = job._stock = None
         job.document = json.loads(engine.to_json())
         job._tool_files = []
         job._take_wires()
@@ -110,7 +113,7 @@ class Job:
 
     def __getstate__(self) -> Document:
         """For pickle and copy; a part that was read travels along."""
-        return {**vars(self), "engine": self.engine.to_json(), "_part": None}
+        return {**vars(self), "engine": self.engine.to_json(), "_part": None, "_stock": None}
 
     def __setstate__(self, state: Document) -> None:
         """From :meth:`__getstate__`."""
@@ -194,6 +197,11 @@ class Job:
         return str(self.document["title"] or Path(self.document["part"]["file"]).name)
 
     @property
+    def output(self) -> str:
+        """The file that its G-code is written to, the main channel's: as it names it, or by its own name."""
+        return str(self.document["output"]["file"]) or f"{self.name}.ngc"
+
+    @property
     def operations(self) -> list[Document]:
         """The operations in order, with all their defaults; each has the id by which programs and reports call it."""
         sections = enumerate(self.document["operations"], start=1)
@@ -240,7 +248,10 @@ class Job:
         named = [self.document["part"]["file"], *machines, *dict.fromkeys(self._tool_files)]
         measured = [] if self._springback is None else springback.files(self._springback)
         own = [] if self.file is None else [self.file]
-        return own + [self.folder / name for name in [*named, *measured] if name]
+        mesh, before = stockfile.section_of(self.document, "mesh"), self._before()
+        named += [] if mesh is None else [mesh["file"]]
+        earlier = [] if before is None else [*before[0].inputs(), before[1]]
+        return own + [self.folder / name for name in [*named, *measured] if name] + earlier
 
     @property
     def _springback(self) -> Document | None:
@@ -268,6 +279,16 @@ class Job:
             self._part = target.shaped(self.engine, self._deviations()) if self.engine.shapes else target
         return self._part
 
+    def stock(self, progress: Progress | None = None) -> Part | None:
+        """The body in the stock's file, read once; None where the job names none.
+
+        Raises:
+            GeometryError: it cannot be read.
+        """
+        if self._stock is None:
+            self._stock = stockfile.body(self.document, self.folder, progress)
+        return self._stock
+
     def _deviations(self) -> list[tuple[FloatArray, FloatArray]]:
         return [] if self._springback is None else springback.read_deviations(self._springback, self.folder)
 
@@ -283,7 +304,31 @@ class Job:
             JobError: the job has no such channel.
         """
         channel_of(channel, self.channels, JobError)
-        return _engine.Scene(self.engine, self.part(progress).engine, channel)
+        part, stock = self.part(progress), self.stock(progress)
+        body = None if stock is None else stock.engine
+        return _engine.Scene(self.engine, part.engine, channel, body, self._earlier(progress))
+
+    def _earlier(self, progress: Progress | None) -> _engine.Earlier | None:
+        """What the program cut that left the stock; None where the job names none."""
+        before = self._before()
+        if before is None:
+            return None
+        job, file = before
+        text = stockfile.program(file, job.file or job.folder)
+        return job.scene(progress).left_by(job.engine, job.machine().engine, text)
+
+    def _before(self) -> tuple[Job, Path] | None:
+        """The job that left the stock, which comes not back to this one by those before it, and its program's file."""
+        first, before = None, self
+        seen = set() if self.file is None else {self.file.resolve()}
+        while (section := stockfile.section_of(before.document, "program")) is not None:
+            earlier = Job.read(before.folder / section["job"])
+            file = before.folder / section["file"] if section.get("file") else earlier.folder / earlier.output
+            first = first or (earlier, file)
+            stockfile.require_new((before.folder / section["job"]).resolve(), seen)
+            seen.add((before.folder / section["job"]).resolve())
+            before = earlier
+        return first
 
     def tools(self) -> dict[str, Tool]:
         """The job's tools by name: profile, base, shank and holder."""

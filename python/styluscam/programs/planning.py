@@ -221,8 +221,7 @@ def of_channel(path: Path, channel: str) -> Path:
 
 def output_name(job: Job, channel: str = MAIN_CHANNEL) -> str:
     """The G-code's file as the job names it, or by the job's name."""
-    main = str(job.document["output"]["file"]) or f"{job.name}.ngc"
-    return main if channel == MAIN_CHANNEL else str(of_channel(Path(main), channel))
+    return job.output if channel == MAIN_CHANNEL else str(of_channel(Path(job.output), channel))
 
 
 TextLike: TypeAlias = "str | os.PathLike[str] | Posted"

@@ -5,6 +5,7 @@
 mod arrays;
 mod channel;
 mod cutting;
+mod earlier;
 mod elementary;
 mod errors;
 mod flank;
@@ -39,6 +40,8 @@ mod _engine {
     use crate::channel::require_channel;
     #[pymodule_export]
     use crate::cutting::{cutting_data, cutting_table, shipped_cutting_tables};
+    #[pymodule_export]
+    use crate::earlier::Earlier;
     #[pymodule_export]
     use crate::elementary::Elementary;
     #[pymodule_export]

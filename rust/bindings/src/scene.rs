@@ -1,10 +1,15 @@
 //! The part as it lies on the machine.
 
+use std::sync::Arc;
+
 use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use styluscam_job::Travel;
+use styluscam_job::{Given, Text, Travel};
 
-use crate::{arrays, errors::of_job, job::Job, part::Part, shapes, sheet::face_name, tool::Tool, walls};
+use crate::{
+    arrays, earlier::Earlier, errors::of_job, job::Job, machine::Machine, part::Part, shapes, sheet::face_name,
+    tool::Tool, walls,
+};
 
 /// The part as it lies on the machine of a channel.
 #[pyclass(frozen, module = "styluscam._engine")]
@@ -15,11 +20,32 @@ pub struct Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (job, part, channel="main"))]
-    fn new(py: Python<'_>, job: &Job, part: &Part, channel: &str) -> PyResult<Self> {
+    /// With the body of the stock, or what an earlier program left, where the job names either.
+    #[pyo3(signature = (job, part, channel="main", stock=None, earlier=None))]
+    fn new(
+        py: Python<'_>,
+        job: &Job,
+        part: &Part,
+        channel: &str,
+        stock: Option<&Part>,
+        earlier: Option<&Earlier>,
+    ) -> PyResult<Self> {
         let channel = job.channel(channel)?;
-        let scene = py.detach(|| styluscam_job::Scene::new(&job.document, channel, &part.part)).map_err(of_job)?;
+        let given = match (stock, earlier) {
+            (_, Some(earlier)) => Given::Program(&earlier.earlier),
+            (Some(stock), None) => Given::Body(&stock.part.mesh),
+            (None, None) => Given::Nothing,
+        };
+        let made = || styluscam_job::Scene::with_stock(&job.document, channel, &part.part, given);
+        let scene = py.detach(made).map_err(of_job)?;
         Ok(Self { scene })
+    }
+
+    /// What the program of its job in a text leaves of its stock.
+    fn left_by(&self, py: Python<'_>, job: &Job, machine: &Machine, text: &str) -> PyResult<Earlier> {
+        let text = Text { scene: &self.scene, machine: &machine.machine, text };
+        let earlier = py.detach(|| styluscam_job::earlier(&job.document, text)).map_err(of_job)?;
+        Ok(Earlier { earlier: Arc::new(earlier) })
     }
 
     /// Rows of the matrix from the file's frame to work coordinates.

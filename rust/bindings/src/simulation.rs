@@ -19,14 +19,22 @@ pub struct Simulation {
 
 #[pymethods]
 impl Simulation {
-    /// From what the getters give: the first node, the step from one to the next, heights (rows, columns) and that before.
+    /// From what the getters give: the first node, the step from one to the next, heights (rows, columns) and those before.
     #[new]
+    #[pyo3(signature = (origin, step, heights, top, before=None))]
     #[allow(clippy::needless_pass_by_value)] // PyO3 hands arrays by value
-    fn new(origin: [f64; 2], step: [f64; 2], heights: PyReadonlyArray2<'_, f64>, top: f64) -> Self {
+    fn new(
+        origin: [f64; 2],
+        step: [f64; 2],
+        heights: PyReadonlyArray2<'_, f64>,
+        top: f64,
+        before: Option<PyReadonlyArray2<'_, f64>>,
+    ) -> Self {
         let view = heights.as_array();
         let (rows, columns) = view.dim();
         let grid = styluscam_verify::Grid { origin, step, nodes: [columns, rows] };
-        Self { simulation: styluscam_verify::Simulation { grid, heights: view.iter().copied().collect(), top } }
+        let before = before.map(|before| before.as_array().iter().copied().collect());
+        Self { simulation: styluscam_verify::Simulation { grid, heights: view.iter().copied().collect(), top, before } }
     }
 
     /// The first node in plan.
@@ -48,7 +56,15 @@ impl Simulation {
         PyArray1::from_slice(py, &self.simulation.heights).reshape([rows, columns])
     }
 
-    /// Height before the first move, mm.
+    /// Heights before the first move (rows along Y, columns along X), mm; None where they are all `top`.
+    #[getter]
+    fn before<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
+        let [columns, rows] = self.simulation.grid.nodes;
+        let before = self.simulation.before.as_deref();
+        before.map(|heights| PyArray1::from_slice(py, heights).reshape([rows, columns])).transpose()
+    }
+
+    /// The highest of all before the first move, mm.
     #[getter]
     fn top(&self) -> f64 {
         self.simulation.top

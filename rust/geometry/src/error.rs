@@ -78,6 +78,12 @@ pub enum GeometryError {
     /// No triangle of positive area is left: the selection or the file is empty.
     #[error("the mesh has no triangle of positive area")]
     EmptyMesh,
+    /// A mesh that is to be a body does not close: repair it, or export it again as a solid.
+    #[error("the mesh is not closed near X{:.3} Y{:.3} Z{:.3}", at[0], at[1], at[2])]
+    NotClosed {
+        /// Where, mm.
+        at: [f64; 3],
+    },
     /// The part is larger than any machine: most likely its units are wrong.
     #[error("the mesh reaches {reach:.3e} mm from the origin, more than {limit:.0e} mm: check its units")]
     Huge {
@@ -102,6 +108,7 @@ impl GeometryError {
             Self::FewSamples { .. } => "few-samples",
             Self::TooFine { .. } => "too-fine",
             Self::EmptyMesh => "empty-mesh",
+            Self::NotClosed { .. } => "not-closed",
             Self::Huge { .. } => "huge-mesh",
         }
     }

@@ -37,7 +37,7 @@ pub use plane::{circle_outline, rectangle_outline, PlaneCircle, PlanePiece, Plan
 pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};
 pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallEnd, WallFault, WallShape, Walled, Warped};
 pub use sheet::{ModelFace, Sheet, SheetLaw};
-pub use stock::Stock;
+pub use stock::{Solid, Stock};
 pub use tool::{Base, CutterMaterial, Holder, Tool, ToolDocument};
 pub use tool_body::ToolBody;
 pub use tool_flank::ToolFlank;

@@ -6,12 +6,12 @@ use std::ops::Range;
 
 use serde::Serialize;
 use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Stock, Tool, Vector};
-use styluscam_motion::{Program, ToolRecord, Watch};
+use styluscam_motion::{EventKind, Move, Program, ToolRecord, Watch};
 use styluscam_post::machine::{Rapids, ToolChange};
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need, Obstacle,
-    Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
+    cut_by, turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need,
+    Obstacle, Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
@@ -19,8 +19,8 @@ use crate::numbers::shown;
 use crate::operations::{LeadForm, LinkHeight};
 use crate::resolve::{check_part, faces_of, heights_of, layers_of, passes_of, region_of, tools_in_order};
 use crate::{
-    clamp, forming, materials, model, plates, portion, spindle, Coolant, JobDocument, JobError, OperationSection,
-    Scene, SheetSection,
+    clamp, forming, materials, model, plates, portion, spindle, Coolant, Earlier, JobDocument, JobError,
+    OperationSection, Scene, SheetSection,
 };
 
 /// Most that may be left on a sheet's faces where the tool cannot get, mm, where the job does not state it: single-point forming
@@ -81,6 +81,7 @@ impl<'a> Against<'a> {
             tools: &self.tools,
             sheet: self.scene.sheet,
             stock: self.scene.stock.as_ref(),
+            before: self.scene.earlier.as_deref().map(|earlier| &earlier.cut),
             deviation_inward: self.scene.inward,
             deviation_outward: self.scene.outward,
             wcs: self.wcs,
@@ -142,6 +143,56 @@ pub fn judge(
         None => (program, None),
     };
     Ok(Judgement { channel: text.scene.channel, report, program, turned, unknown_positions, limits })
+}
+
+/// What the program of a job, as it reads in a text, cuts of its stock, after all that was cut of it before.
+///
+/// # Errors
+/// Text that the machine would not take, or that is not the job's; a part that turns; a job without stock.
+pub fn earlier(job: &JobDocument, text: Text<'_>) -> Result<Earlier, JobError> {
+    let refused = |code, message: String, hint| Err(JobError::document(code, "setup.stock.job", message, hint));
+    let scene = text.scene;
+    let Some(stock) = &scene.stock else {
+        let message = "the earlier job forms a sheet, and has no stock".to_owned();
+        return refused("conflict", message, "name a job that mills");
+    };
+    let prepared = Prepared::new(job, text)?;
+    let Reading { program, axes, .. } = &prepared.reading;
+    let missing = |expected: &&ExpectedOperation| program.operations.iter().all(|own| own.id != expected.id);
+    if let Some(expected) = prepared.against.expected.iter().find(missing) {
+        let message = format!("the earlier program has no operation {:?}: it is not that of its job", expected.id);
+        return refused("another-program", message, "post the earlier job again, or name its file by file");
+    }
+    if axes.is_some() {
+        let message = "the earlier program turns the part, and what it cuts of the stock is not known".to_owned();
+        return refused("conflict", message, "name a job for a machine of three axes");
+    }
+    let mut upcoming = program.upcoming();
+    let mut tool = 0;
+    let with_tool = |(index, step): (usize, &Move)| {
+        for event in upcoming.before(index) {
+            if let EventKind::ToolChange { tool: called } = event {
+                tool = *called;
+            }
+        }
+        Move { operation: tool, ..*step }
+    };
+    let moves = program.moves.iter().enumerate().map(with_tool).collect();
+    let words = scene.stock_words.clone().unwrap_or_else(|| "the part's box".to_owned());
+    let own = Earlier {
+        stock: stock.clone(),
+        words,
+        frame: scene.frame,
+        part: scene.mesh.bounds(),
+        deviation: scene.inward.max(scene.outward),
+        moves,
+        tools: prepared.against.tools.clone(),
+        cut: cut_by(program, &prepared.subject(Pairing::Alone), &prepared.limits),
+    };
+    Ok(match &scene.earlier {
+        Some(before) => own.after(before),
+        None => own,
+    })
 }
 
 /// Adds to the report of a whole text what its intermediate stages are found to do to their own shapes.

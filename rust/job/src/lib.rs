@@ -12,6 +12,7 @@ mod clamp;
 mod cutting;
 mod die;
 mod document;
+mod earlier;
 mod error;
 mod estimate;
 mod faces;
@@ -64,11 +65,12 @@ pub use cutting::{
 pub use document::{
     JobDocument, LengthUnit, MachineSection, OutputSection, PartSection, SetupSection, SheetSection, ToolSection, Zero,
 };
+pub use earlier::Earlier;
 pub use error::JobError;
 pub use estimate::{estimates, Estimate};
 pub use file_units::Units;
 pub use fixture::{BackingSection, ClampSection, FixtureSection, Opening};
-pub use judge::{coverage, judge, left, needs, read_back, scallops, simulate, Judgement, Text};
+pub use judge::{coverage, earlier, judge, left, needs, read_back, scallops, simulate, Judgement, Text};
 pub use materials::{materials, Angle, Material};
 pub use operations::{
     BridgedFace, Context, Coolant, Direction, Edges, Effort, End, Fact, Feeds, Operation, OperationKeys, OperationKind,
@@ -88,6 +90,6 @@ pub use shaping::{
     is_shaped, shaped, AddendumEnd, AddendumKind, AddendumSection, Deviation, MeshPair, SpringbackSection, Stages,
 };
 pub use starter::{fitting_radius, starter, Starter, StarterFace, StarterOperation, StarterPart};
-pub use stock::{BoxStock, CylinderStock, StockSection};
+pub use stock::{BoxStock, CylinderStock, Given, MeshStock, ProgramStock, StockSection};
 pub use summary::Summary;
 pub use up_axis::UpAxis;

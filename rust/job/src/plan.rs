@@ -69,7 +69,7 @@ fn channel(job: &JobDocument, Setting { scene, machine }: Setting<'_>, watch: &W
             faces,
             are_faces_named: matches!(selection_of(job, section, index).0, Selection::Named(_)),
             heights: heights_of(job, scene, section),
-            before: Before { moves: &channel.program.moves, tools: &before },
+            before: Before { earlier: scene.earlier.as_deref(), moves: &channel.program.moves, tools: &before },
             watch,
         };
         let selected = scene.facing_up(&context.faces);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use styluscam_geometry::{Bvh, Frame, Mesh, Sheet, Stock};
 use styluscam_toolpath::offset::Index;
 
+use crate::earlier::Earlier;
 use crate::faces::FaceView;
 use crate::operations::Fact;
 use crate::{Curves, FixtureSection};
@@ -37,6 +38,8 @@ pub struct Scene {
     pub stock: Option<Stock>,
     /// The stock in words, where the job states it.
     pub(crate) stock_words: Option<String>,
+    /// What was cut of it before.
+    pub(crate) earlier: Option<Arc<Earlier>>,
     /// The highest point of stock and sheet, mm.
     pub top: f64,
     /// Height of the flat sheet's face that the tool comes to, mm; of the part's top without a sheet.

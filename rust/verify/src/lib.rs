@@ -30,6 +30,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
 mod assignment;
+mod before;
 mod blank;
 mod body;
 mod bored;
@@ -43,6 +44,7 @@ mod corners;
 mod coverage;
 mod covered;
 mod diagnosis;
+mod earlier;
 mod engaged;
 mod engagement;
 mod expectation;
@@ -94,7 +96,9 @@ mod walls;
 mod walls_beside;
 mod words;
 
+pub use before::Before;
 pub use coverage::{coverage, left, needs, FaceCoverage};
+pub use earlier::cut_by;
 pub use engaged::{ClearedLayer, ClearingKind, ClearingMove, EngagedAt, OperationEngagement};
 pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,

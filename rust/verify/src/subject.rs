@@ -5,6 +5,7 @@ use std::ops::Range;
 use styluscam_geometry::{Bvh, Mesh, Sheet, Stock, Tool};
 use styluscam_motion::{Cornering, FeedRounding, MachineMove, Program};
 
+use crate::before::Before;
 use crate::body::Body;
 use crate::expectation::ExpectedOperation;
 use crate::findings::{FindingKind, Severity};
@@ -22,6 +23,8 @@ pub struct Subject<'a> {
     pub sheet: Option<Sheet>,
     /// What the part is cut from, where it is.
     pub stock: Option<&'a Stock>,
+    /// What earlier programs have cut of it.
+    pub before: Option<&'a Before>,
     /// How far the triangles lie inside the true surface at most, mm: taken off every clearance
     /// before it is checked as a gouge.
     pub deviation_inward: f64,

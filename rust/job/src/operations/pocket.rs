@@ -409,13 +409,18 @@ impl Pocket {
         let Context { common, machine, tool, reference_height, operation, watch, .. } = *context;
         let radius = tool.cutter().at_height(top - floor).0;
         let ([left, finished], direction) = (self.left_and_finished(common.stock_to_leave()), sense(common, true));
-        let hole = self.entry_hole.map(EntryHole::outline);
+        let between = stock.outlines_between([top, floor]);
+        if between.is_empty() {
+            return Ok(());
+        }
+        let in_stock = |hole: &EntryHole| CentreArea::parted(&between).iter().any(|area| area.holds([hole.x, hole.y]));
+        let hole = self.entry_hole.filter(in_stock).map(EntryHole::outline);
         let (air, beyond) = box_around(stock, BEYOND * tool.diameter());
-        let stock: Vec<Vec<[f64; 3]>> = stock.outlines_between([top, floor]).iter().cloned().chain(hole).collect();
+        let stock: Vec<Vec<[f64; 3]>> = between.iter().cloned().chain(hole).collect();
         let all: Vec<Vec<[f64; 3]>> = outlines.iter().cloned().chain([air]).collect();
         // in programs that lean arcs become lines, and their chords turn the heading
         let arcs = common.fit == Fit::Arcs && machine.arc.is_some() && machine.rotary.is_none();
-        let before = if self.rest_machining { context.before.cleared([top, floor]) } else { Vec::new() };
+        let before = context.before.cleared([top, floor], self.rest_machining);
         let is_cleared = |area: &&CentreArea| self.clears.is_all() || is_over_selected(surface, area, floor, radius);
         let mut planned = Repeated::default();
         for area in CentreArea::parted(&all).iter().filter(is_cleared) {

@@ -7,6 +7,7 @@ use styluscam_toolpath::offset::Index;
 use super::stock::stock_of;
 use crate::chuck::turned_over;
 use crate::fixture::ClampSection;
+use crate::stock::Given;
 use crate::{faces, plates, shaping, Chuck, FixtureSection, JobDocument, JobError, Part, Scene, Zero};
 
 impl Scene {
@@ -15,10 +16,23 @@ impl Scene {
     /// # Errors
     /// A sheet that is out of range, a stage of too many triangles.
     pub fn new(job: &JobDocument, channel: &'static str, part: &Part) -> Result<Self, JobError> {
-        let mut scene = Self::of(job, channel, part)?;
+        Self::with_stock(job, channel, part, Given::Nothing)
+    }
+
+    /// As [`new`](Self::new), with what was read for the stock, where the job states it by files.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); a body that does not close, or out of which the part sticks; a program for another part or zero point.
+    pub fn with_stock(
+        job: &JobDocument,
+        channel: &'static str,
+        part: &Part,
+        given: Given<'_>,
+    ) -> Result<Self, JobError> {
+        let mut scene = Self::of(job, channel, part, given)?;
         for (number, angle) in (1..).zip(shaping::stage_angles(job, part)?) {
             // a face that a stage does not have yet keeps its name
-            let stage = Self::of(job, channel, &shaping::staged(job, part, angle)?)?;
+            let stage = Self::of(job, channel, &shaping::staged(job, part, angle)?, given)?;
             scene.stages.push(Self {
                 stage: Some(number),
                 stage_angle_deg: angle,
@@ -29,7 +43,7 @@ impl Scene {
         Ok(scene)
     }
 
-    fn of(job: &JobDocument, channel: &'static str, part: &Part) -> Result<Self, JobError> {
+    fn of(job: &JobDocument, channel: &'static str, part: &Part, given: Given<'_>) -> Result<Self, JobError> {
         let placed = Placed::new(job, part)?;
         let thickness = placed.sheet.map_or(0.0, |sheet| sheet.thickness);
         let opposite = job.opposite(channel).map(|opposite| opposite.squeeze * thickness);
@@ -38,7 +52,8 @@ impl Scene {
             None => placed,
         };
         let Placed { mesh, target, frame, sheet, fixture, flat, top, zero } = placed;
-        let stock = sheet.is_none().then(|| stock_of(job, mesh.vertices(), mesh.bounds())).transpose()?;
+        let stock = sheet.is_none().then(|| stock_of(job, &mesh, (part.inward.max(part.outward), &frame), given));
+        let stock = stock.transpose()?;
         let (stock, stock_words) = stock.unzip();
         let top = stock.as_ref().map_or(top, |stock: &Stock| stock.top.max(top));
         let sorted = || {
@@ -73,6 +88,10 @@ impl Scene {
             outward: if opposite.is_none() { part.outward } else { part.inward },
             stock,
             stock_words: stock_words.flatten(),
+            earlier: match given {
+                Given::Program(earlier) => Some(earlier.clone()),
+                Given::Nothing | Given::Body(_) => None,
+            },
             top,
             flat,
             clearance: top + job.setup.clearance,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Stock, Vector};
 
-use super::kind::StockKind;
+use super::kind::{Around, StockKind};
 use crate::numbers::shown;
 use crate::JobError;
 
@@ -43,17 +43,18 @@ impl StockKind for BoxStock {
         Err(JobError::document("missing", format!("{path}.{missing}"), message, format!("add {missing} = [x, y, z]")))
     }
 
-    fn around(&self, low: Vector, high: Vector) -> Stock {
-        match (self.low, self.high) {
+    fn around(&self, around: &Around<'_>) -> Result<Stock, JobError> {
+        let (low, high) = around.part;
+        Ok(match (self.low, self.high) {
             (Some(low), Some(high)) => Stock::of_box(low.into(), high.into()),
             _ => Stock::of_box(
                 low - Vector::new(self.sides, self.sides, self.bottom),
                 high + Vector::new(self.sides, self.sides, self.top),
             ),
-        }
+        })
     }
 
-    fn words(&self, stock: &Stock) -> String {
+    fn words(&self, _: &Around<'_>, stock: &Stock) -> String {
         let (low, high) = stock.bounds();
         let axis = |i: usize, name: &str| {
             let [low, high] = [low, high].map(|corner| shown((corner[i] * 1e3).round() / 1e3));
@@ -62,9 +63,9 @@ impl StockKind for BoxStock {
         format!("a box, {}, {}, {}", axis(0, "X"), axis(1, "Y"), axis(2, "Z"))
     }
 
-    fn holds(&self, stock: &Stock, point: [f64; 2], within: f64) -> bool {
+    fn holds(&self, stock: &Stock, point: Vector, within: f64) -> bool {
         let (low, high) = stock.bounds();
-        (0..2).zip(point).all(|(i, at)| (low[i] - within..=high[i] + within).contains(&at))
+        (0..2).all(|i| (low[i] - within..=high[i] + within).contains(&point[i]))
     }
 }
 

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Stock, Vector};
 
-use super::kind::StockKind;
+use super::kind::{Around, StockKind};
 use crate::numbers::shown;
 use crate::JobError;
 
@@ -36,14 +36,15 @@ impl StockKind for CylinderStock {
         Ok(())
     }
 
-    fn around(&self, low: Vector, high: Vector) -> Stock {
+    fn around(&self, around: &Around<'_>) -> Result<Stock, JobError> {
+        let (low, high) = around.part;
         let middle = 0.5 * (low + high);
         let around = 0.5 * libm::hypot(high.x - low.x, high.y - low.y) + self.sides;
         let radius = self.diameter.map_or(around, |diameter| 0.5 * diameter);
-        Stock::cylinder([middle.x, middle.y], radius, [low.z - self.bottom, high.z + self.top])
+        Ok(Stock::cylinder([middle.x, middle.y], radius, [low.z - self.bottom, high.z + self.top]))
     }
 
-    fn words(&self, stock: &Stock) -> String {
+    fn words(&self, _: &Around<'_>, stock: &Stock) -> String {
         let (low, high) = stock.bounds();
         let [diameter, x, y, bottom, top] =
             [high.x - low.x, 0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z, high.z]
@@ -51,9 +52,9 @@ impl StockKind for CylinderStock {
         format!("a cylinder, diameter {diameter}, axis at X{x} Y{y}, Z{bottom} to {top}")
     }
 
-    fn holds(&self, stock: &Stock, [x, y]: [f64; 2], within: f64) -> bool {
+    fn holds(&self, stock: &Stock, point: Vector, within: f64) -> bool {
         let (low, high) = stock.bounds();
         let middle = 0.5 * (low + high);
-        libm::hypot(x - middle.x, y - middle.y) <= 0.5 * (high.x - low.x) + within
+        libm::hypot(point.x - middle.x, point.y - middle.y) <= 0.5 * (high.x - low.x) + within
     }
 }

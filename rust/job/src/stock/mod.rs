@@ -3,16 +3,21 @@
 //! A further kind is one file here and one line in [`StockSection`].
 
 mod block;
+mod body;
 mod cylinder;
 mod kind;
+mod program;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use block::BoxStock;
+pub use body::MeshStock;
 pub use cylinder::CylinderStock;
+pub use kind::Given;
+pub use program::ProgramStock;
 
-use kind::StockKind;
+pub(crate) use kind::{Around, StockKind};
 
 /// Stock from which the part is cut.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,6 +27,10 @@ pub enum StockSection {
     Box(BoxStock),
     /// An upright cylinder around the part.
     Cylinder(CylinderStock),
+    /// A body of any shape in a file.
+    Mesh(MeshStock),
+    /// What an earlier program left.
+    Program(ProgramStock),
 }
 
 impl StockSection {
@@ -30,6 +39,8 @@ impl StockSection {
         match self {
             Self::Box(kind) => kind,
             Self::Cylinder(kind) => kind,
+            Self::Mesh(kind) => kind,
+            Self::Program(kind) => kind,
         }
     }
 }

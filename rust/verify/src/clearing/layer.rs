@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-use styluscam_geometry::{circle_outline, PlanePiece, Stock};
+use styluscam_geometry::{circle_outline, PlanePiece, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
-use super::before;
+use super::before::Took;
 use super::own::Own;
 use crate::engagement::{
     engagement, Area, Cleared, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept,
@@ -13,7 +13,6 @@ use crate::engagement::{
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
-use crate::subject::Subject;
 use crate::tolerances::{SAME_LEVEL, SLACK};
 
 /// What the angle may exceed the bound by, rad (half a degree): planning's own account of the material is good to a twentieth.
@@ -41,16 +40,17 @@ pub(super) struct Layer<'a> {
     pub chip: f64,
     /// What rapids have to keep over what stands, mm.
     pub gap: f64,
-    /// What is cut.
-    pub stock: &'a Stock,
+    /// The outlines of what is cut.
+    pub stock: &'a [Vec<[f64; 3]>],
+    /// Corners of the box of all that is cut, not only in the layer.
+    pub bounds: (Vector, Vector),
     /// Where that is, under the layer's top.
     pub area: &'a Area,
     /// What was swept in it before.
     pub cleared: &'a [Swept],
     pub gone: &'a Cleared,
-    /// The moves before those of its operation that took of its stock.
-    pub before: &'a [&'a Segment],
-    pub subject: &'a Subject<'a>,
+    /// What took of the stock before its operation.
+    pub before: &'a Took<'a>,
     pub clearing: &'a Clearing,
     pub operation: &'a ExpectedOperation,
 }
@@ -157,7 +157,7 @@ impl Layer<'_> {
         if end <= self.floor + SAME_LEVEL || self.before.is_empty() {
             return Ok(true);
         }
-        let cleared = before::cleared(self.before, [self.top, end], self.subject);
+        let cleared = self.before.cleared([self.top, end]);
         let found = self.engagement_in(runs, &cleared, watch)?.unwrap_or_default();
         Ok(found.last().and_then(|along| worst(&along.measures)).is_none_or(|worst| worst.angle > CUTS))
     }
@@ -184,8 +184,9 @@ impl Layer<'_> {
 
     /// The outlines of the stock, and of the hole in it.
     fn stock(&self) -> Vec<Vec<[f64; 3]>> {
-        let hole = self.clearing.hole.map(|(axis, radius)| circle_outline(axis, radius));
-        self.stock.outlines_between([self.top, self.floor]).iter().cloned().chain(hole).collect()
+        let hole = self.clearing.hole.filter(|(axis, _)| self.area.holds(*axis));
+        let hole = hole.map(|(axis, radius)| circle_outline(axis, radius));
+        self.stock.iter().cloned().chain(hole).collect()
     }
 
     /// Whether a point lies in the stock.

@@ -1,7 +1,7 @@
 //! Levels that are missing: farther apart than a step, on level floors, and at the height to which all stock is to be cleared.
 //!
-//! Of rest machining, and where all stock is cleared, only those on which there is stock left that the tool reaches: others have nothing
-//! to clear.
+//! Of rest machining, where all stock is cleared, and of stock that is a body or what a program left, only those on which there is stock left
+//! that the tool reaches: others have nothing to clear.
 
 use styluscam_motion::{Cancelled, Watch};
 
@@ -39,10 +39,11 @@ pub(super) fn missing(
     for Missing { finding, layers, floor } in
         wide(work).into_iter().chain(over_floors(work, subject)).chain(above_lowest(work))
     {
-        let mut is_owed = !(work.clearing.rest || work.clearing.all) || layers.is_empty();
+        let is_everywhere = work.is_even && !(work.clearing.rest || work.clearing.all);
+        let mut is_owed = is_everywhere || layers.is_empty();
         for layer in layers {
-            is_owed = is_owed
-                || work.in_layer(layer, subject, limits, |layer| has_stock(layer, &floor, body, subject, watch))?;
+            is_owed =
+                is_owed || work.in_layer(layer, limits, |layer| has_stock(layer, &floor, body, subject, watch))?;
         }
         findings.extend(is_owed.then_some(finding));
     }

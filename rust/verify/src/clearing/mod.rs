@@ -2,7 +2,7 @@
 //!
 //! An operation that clears works in layers: each lies between the heights of two of its level passes, the first between
 //! the stock's top and the first of them. A layer is looked at in the plane just below its top, with the tool's radius there. The
-//! stock is the subject's, of rest machining without what the operations before have swept; what no move of the layer has swept stands. What is measured there is the engagement angle
+//! stock is the subject's, without what earlier programs, and of rest machining the operations before, have swept; what no move of the layer has swept stands. What is measured there is the engagement angle
 //! ([`crate::engagement`]); what is looked for is stock that a tool could have cleared (`rest`), by positions at which the tool is found
 //! free of the part. Both know nothing of how the path was planned.
 
@@ -58,7 +58,7 @@ pub(crate) fn judged(
         let Some(work) = Work::of(operation, program, segments, assignment, subject, limits) else { continue };
         let body = Body::new(work.tool, subject.sheet.as_ref());
         let mut along = Along::new(&work);
-        work.by_layer(subject, limits, |layer| {
+        work.by_layer(limits, |layer| {
             let inside = layer.measured(&work.own, watch)?;
             along.add(layer, &inside, &work);
             let swept = layer.judged(&inside, watch, &mut faults)?;

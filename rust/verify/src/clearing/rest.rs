@@ -79,7 +79,7 @@ pub(super) struct Grid {
 
 impl Grid {
     pub fn new(layer: &Layer<'_>) -> Self {
-        let (low, high) = layer.stock.bounds();
+        let (low, high) = layer.bounds;
         let around = 1.5 * layer.radius;
         let size = [high.x - low.x + 2.0 * around, high.y - low.y + 2.0 * around];
         let spacing = (SPACING * layer.radius).max((size[0] * size[1] / MOST).sqrt());

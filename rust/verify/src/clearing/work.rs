@@ -3,7 +3,7 @@
 use styluscam_geometry::{Stock, Tool};
 use styluscam_motion::{Cancelled, Program};
 
-use super::before;
+use super::before::Took;
 use super::layer::Layer;
 use super::own::{moves_of, Own};
 use crate::assignment::Assignment;
@@ -23,8 +23,10 @@ pub(super) struct Work<'a> {
     pub tool: &'a Tool,
     stock: &'a Stock,
     pub own: Vec<Own<'a>>,
-    /// The moves before them that took of its stock.
-    before: Vec<&'a Segment>,
+    /// What took of its stock before them.
+    before: Took<'a>,
+    /// Whether the stock is equally wide at all heights.
+    pub is_even: bool,
     /// Of its levels, from the top down, mm.
     pub heights: Vec<f64>,
 }
@@ -47,43 +49,39 @@ impl<'a> Work<'a> {
         if own.is_empty() {
             return None;
         }
-        let before = before::of(segments, &own, clearing);
+        let before = Took::of(subject.before, (segments, subject.tools), &own, clearing);
+        let is_even = stock.solid().is_none() && subject.before.is_none();
         let heights = heights(&own, clearing.top);
-        Some(Self { operation, clearing, tool, stock, own, before, heights })
+        Some(Self { operation, clearing, tool, stock, own, before, is_even, heights })
     }
 
     /// Looks at one layer after the other, from the top down.
     pub fn by_layer(
         &self,
-        subject: &Subject,
         limits: &Limits,
         mut look: impl FnMut(&Layer<'_>) -> Result<(), Cancelled>,
     ) -> Result<(), Cancelled> {
         let mut top = self.clearing.top;
         for floor in &self.heights {
-            self.in_layer([top, *floor], subject, limits, &mut look)?;
+            self.in_layer([top, *floor], limits, &mut look)?;
             top = *floor;
         }
         Ok(())
     }
 
     /// Looks at what lies between two heights.
-    pub fn in_layer<T>(
-        &self,
-        [top, floor]: [f64; 2],
-        subject: &Subject,
-        limits: &Limits,
-        look: impl FnOnce(&Layer<'_>) -> T,
-    ) -> T {
-        let cleared = before::cleared(&self.before, [top, floor], subject);
+    pub fn in_layer<T>(&self, [top, floor]: [f64; 2], limits: &Limits, look: impl FnOnce(&Layer<'_>) -> T) -> T {
+        let cleared = self.before.cleared([top, floor]);
         let radius = self.tool.cutter().at_height(top - floor).0;
+        // heights are rounded: what is no thicker than that is none
+        let outlines = self.stock.outlines_between([top - limits.unit, floor + limits.unit]);
         look(&Layer {
-            stock: self.stock,
-            area: &Area::new(self.stock.outlines_between([top, floor]), radius.max(LEAST_CELL)),
+            stock: &outlines,
+            bounds: self.stock.bounds(),
+            area: &Area::new(&outlines, radius.max(LEAST_CELL)),
             cleared: &cleared,
             gone: &Cleared::new(&cleared, 0.0),
             before: &self.before,
-            subject,
             top,
             floor,
             radius,

@@ -16,11 +16,14 @@ mod mesh;
 mod stock;
 mod underside;
 
-use styluscam_geometry::{PlanePiece, Stock};
+use rayon::prelude::*;
+use styluscam_geometry::{PlanePiece, Sheet, Solid, Stock, Tool};
 use styluscam_motion::{ArcPath, Cancelled, Program, Watch};
 
+use crate::before::Stretch;
+use crate::earlier::stretches;
 use crate::engagement::Area;
-use crate::segments::{placed, Segment};
+use crate::segments::placed;
 use crate::subject::{Limits, Subject};
 use crate::tolerances::SLACK;
 use cut::Cut;
@@ -47,22 +50,67 @@ pub fn simulate(
     watch: &Watch,
 ) -> Result<Simulation, Cancelled> {
     watch.begin("simulating", grid.count());
-    let tools: Vec<Underside> = subject.tools.iter().map(|tool| Underside::new(tool, subject.sheet.as_ref())).collect();
-    let (cuts, arcs) = cuts(&placed(program, subject, limits));
-    let field = Field { grid, top, tools: &tools, arcs: &arcs, watch };
-    let tiles = field.tiles(grid.whole(), &cuts)?;
-    let mut heights = assembled(grid, &tiles);
-    if let Some(stock) = subject.stock {
-        clear_beside(stock, grid, &mut heights);
+    let level = Level { grid, top, sheet: subject.sheet.as_ref(), watch };
+    let own: Vec<Stretch> = placed(program, subject, limits).iter().flat_map(stretches).collect();
+    let mut heights = level.cut(&own, subject.tools)?;
+    let mut before = None;
+    match subject.stock.map(|stock| (stock, stock.solid())) {
+        Some((stock, Some(solid))) => before = Some(upper_side(solid, stock.bottom, grid, watch)?),
+        Some((stock, None)) => clear_beside(stock, grid, &mut heights),
+        None => {}
     }
-    Ok(Simulation { grid, heights, top })
+    if let Some(earlier) = subject.before {
+        let cut = level.cut(&earlier.stretches, &earlier.tools)?;
+        before = Some(before.map_or(cut.clone(), |before| lower(before, &cut)));
+    }
+    let heights = before.as_ref().map_or(heights.clone(), |before| lower(heights, before));
+    Ok(Simulation { grid, heights, top, before })
+}
+
+/// The lower of two heights at every node.
+fn lower(mut heights: Vec<f64>, others: &[f64]) -> Vec<f64> {
+    heights.iter_mut().zip(others).for_each(|(height, other)| *height = height.min(*other));
+    heights
+}
+
+/// What is level before it is cut.
+struct Level<'a> {
+    grid: Grid,
+    /// mm.
+    top: f64,
+    sheet: Option<&'a Sheet>,
+    watch: &'a Watch,
+}
+
+impl Level<'_> {
+    /// Heights at every node after some moves, mm.
+    fn cut(&self, stretches: &[Stretch], tools: &[Tool]) -> Result<Vec<f64>, Cancelled> {
+        let tools: Vec<Underside> = tools.iter().map(|tool| Underside::new(tool, self.sheet)).collect();
+        let (cuts, arcs) = cuts(stretches);
+        let field = Field { grid: self.grid, top: self.top, tools: &tools, arcs: &arcs, watch: self.watch };
+        Ok(assembled(self.grid, &field.tiles(self.grid.whole(), &cuts)?))
+    }
+}
+
+/// Height of a body's upper side at every node, and of its underside beside it.
+fn upper_side(solid: &Solid, bottom: f64, grid: Grid, watch: &Watch) -> Result<Vec<f64>, Cancelled> {
+    let height = |node: usize| {
+        watch.advance(0)?;
+        let [x, y] = grid.at(node % grid.nodes[0], node / grid.nodes[0]);
+        // its own border belongs to it, whatever arithmetic makes of that
+        let beside = [[-SLACK, -SLACK], [SLACK, -SLACK], [-SLACK, SLACK], [SLACK, SLACK]];
+        let around = || beside.into_iter().filter_map(|[dx, dy]| solid.height_at([x + dx, y + dy])).reduce(f64::max);
+        Ok(solid.height_at([x, y]).or_else(around).unwrap_or(bottom))
+    };
+    (0..grid.count()).into_par_iter().with_min_len(1024).map(height).collect()
 }
 
 /// Lowers to the stock's underside what lies beside it.
 fn clear_beside(stock: &Stock, grid: Grid, heights: &mut [f64]) {
     // its own border belongs to it, whatever arithmetic makes of that
-    let area = Area::new(&stock.outlines, grid.step[0].max(grid.step[1]));
-    let pieces: Vec<PlanePiece> = stock.outlines.iter().flat_map(|outline| PlanePiece::outline(outline)).collect();
+    let outlines = stock.outlines_between([stock.top, stock.bottom]);
+    let area = Area::new(&outlines, grid.step[0].max(grid.step[1]));
+    let pieces: Vec<PlanePiece> = outlines.iter().flat_map(|outline| PlanePiece::outline(outline)).collect();
     let is_on_border = |at: [f64; 2]| pieces.iter().any(|piece| piece.distance(at) <= SLACK);
     for (node, height) in heights.iter_mut().enumerate() {
         let at = grid.at(node % grid.nodes[0], node / grid.nodes[0]);
@@ -73,17 +121,17 @@ fn clear_beside(stock: &Stock, grid: Grid, heights: &mut [f64]) {
 }
 
 /// What every move cuts, and the arcs that some of them are parts of.
-fn cuts(segments: &[Segment]) -> (Vec<Cut>, Vec<ArcPath>) {
+fn cuts(stretches: &[Stretch]) -> (Vec<Cut>, Vec<ArcPath>) {
     let mut arcs = Vec::new();
-    let cut = |segment: Segment| {
-        let tool = segment.tool? as u32;
-        let Some(path) = segment.bend else {
-            return Some(Cut::straight(segment.start.unwrap_or(segment.end), segment.end, tool));
+    let cut = |stretch: &Stretch| {
+        let tool = stretch.tool? as u32;
+        let Some(path) = stretch.bend else {
+            return Some(Cut::straight(stretch.start.unwrap_or(stretch.end), stretch.end, tool));
         };
         arcs.push(path);
         Some(Cut::bent(&path, arcs.len() as u32 - 1, tool))
     };
-    (segments.iter().flat_map(Segment::pieces).filter_map(cut).collect(), arcs)
+    (stretches.iter().filter_map(cut).collect(), arcs)
 }
 
 /// The tiles' heights in the order of the grid.

@@ -11,4 +11,6 @@ pub struct Simulation {
     pub heights: Vec<f64>,
     /// Height before the first move, mm.
     pub top: f64,
+    /// The same at every node, where stock is not level; also of what lies beside it.
+    pub before: Option<Vec<f64>>,
 }

@@ -50,14 +50,15 @@ pub fn ends(triangles: &[[u32; 3]], half: u32) -> (u32, u32) {
 
 /// Whether each edge is run as often in one direction as in the other.
 pub fn is_closed(triangles: &[[u32; 3]], edges: &Edges) -> bool {
-    let agrees =
-        |(half, twin): (usize, &u32)| *twin == NONE || ends(triangles, half as u32).0 == ends(triangles, *twin).1;
-    !triangles.is_empty()
-        && edges.twins.iter().enumerate().all(agrees)
-        && edges
-            .odd
-            .iter()
-            .all(|edge| 2 * edge.iter().filter(|half| is_forward(triangles, **half)).count() == edge.len())
+    !triangles.is_empty() && gap(triangles, edges).is_none()
+}
+
+/// A half-edge of the first edge that is not.
+pub fn gap(triangles: &[[u32; 3]], edges: &Edges) -> Option<u32> {
+    let agrees = |half: u32, twin: u32| twin == NONE || ends(triangles, half).0 == ends(triangles, twin).1;
+    let apart = (0..).zip(&edges.twins).find(|(half, twin)| !agrees(*half, **twin)).map(|(half, _)| half);
+    let is_even = |edge: &&Vec<u32>| 2 * edge.iter().filter(|half| is_forward(triangles, **half)).count() == edge.len();
+    apart.or_else(|| edges.odd.iter().find(|edge| !is_even(edge)).and_then(|edge| edge.first().copied()))
 }
 
 fn is_forward(triangles: &[[u32; 3]], half: u32) -> bool {

@@ -76,6 +76,14 @@ impl Soup {
         Self { vertices, triangles, mending }
     }
 
+    /// A corner of an edge that is not run as often in one direction as in the other; none of what is closed.
+    #[must_use]
+    pub fn gap(&self) -> Option<[f64; 3]> {
+        let edges = edges::Edges::of(&self.triangles);
+        let half = edges::gap(&self.triangles, &edges)?;
+        self.vertices.get(edges::ends(&self.triangles, half).0 as usize).map(|corner| (*corner).into())
+    }
+
     /// The face of each triangle, from 1, and the shape of each face.
     ///
     /// Faces are numbered from the top down, by the boxes around them: whatever the order of the triangles.
