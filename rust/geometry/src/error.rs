@@ -78,6 +78,15 @@ pub enum GeometryError {
     /// No triangle of positive area is left: the selection or the file is empty.
     #[error("the mesh has no triangle of positive area")]
     EmptyMesh,
+    /// A chamfer leaves nothing of an edge between its neighbours.
+    #[error(
+        "the chamfer is too wide for the edge at X{:.3} Y{:.3} Z{:.3}: those of its neighbours meet across it; lower the width",
+        .at[0], .at[1], .at[2]
+    )]
+    WideChamfer {
+        /// Where the edge begins, mm.
+        at: [f64; 3],
+    },
     /// The part is larger than any machine: most likely its units are wrong.
     #[error("the mesh reaches {reach:.3e} mm from the origin, more than {limit:.0e} mm: check its units")]
     Huge {
@@ -102,6 +111,7 @@ impl GeometryError {
             Self::FewSamples { .. } => "few-samples",
             Self::TooFine { .. } => "too-fine",
             Self::EmptyMesh => "empty-mesh",
+            Self::WideChamfer { .. } => "wide-chamfer",
             Self::Huge { .. } => "huge-mesh",
         }
     }

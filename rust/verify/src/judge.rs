@@ -3,6 +3,7 @@
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
+use crate::chamfered::Shapes;
 use crate::faults::Fault;
 use crate::findings::{Finding, FindingKind, Severity};
 use crate::frame::Frame;
@@ -12,8 +13,8 @@ use crate::report::Report;
 use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::{
-    bored, clearing, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair, passes, reach,
-    sequence, settings, tabs, travel, unreached, walls,
+    bored, chamfered, clearing, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair,
+    passes, reach, sequence, settings, tabs, travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.
@@ -25,7 +26,8 @@ use crate::{
 pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Report, Cancelled> {
     let segments = placed(program, subject, limits);
     let frame = Frame::of(program, &segments, subject, limits);
-    let mut tally = measure(&segments, subject, limits, frame.as_ref(), watch)?;
+    let shapes = Shapes::of(subject);
+    let mut tally = measure(&segments, (subject, &shapes), limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
     let axes = subject.axes.unwrap_or(Axes { program, unknown_positions: subject.unknown_positions });
     let assignment = Assignment::new(program, subject);
@@ -47,6 +49,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     tally.excess.join(leaning.excess);
     let pair = pair::judged(program, &segments, subject, limits, watch)?;
     faults.extend(pair.faults);
+    let chamfers = chamfered::judged(&segments, (subject, &shapes), limits, watch)?;
+    faults.extend(chamfers.faults);
     let beyond_reach = unreached::findings(&segments, subject, limits, watch)?;
     let steep = steep_walls(subject, limits, &mut faults);
     let (low, high) = subject.mesh.bounds();
@@ -58,6 +62,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         .chain(pair.finding)
         .chain(steep)
         .chain(cleared.findings)
+        .chain(chamfers.findings)
         .chain(beyond_reach)
         .chain(travel::no_feed_moves(program));
     let of_text =
