@@ -2,6 +2,8 @@
 //!
 //! The axis keeps a distance from the edge on its free side: on lines beside straight pieces, about corners that stand out on chords
 //! that touch the circle from outside, so that the part is never entered for them. In corners that lie back lines end where they meet.
+//!
+//! The method: `docs/concepts/chamfers.md`.
 
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
@@ -16,6 +18,8 @@ const EXACT: f64 = 1e-5;
 const LEAST: f64 = 0.05;
 /// Corners that lie so little beside the line between their neighbours are none, mm.
 const ASIDE: f64 = 1e-7;
+/// Lines beside corners that turn by more are not followed to where they meet, rad.
+const MOST_MITER: f64 = 2.4;
 /// Turns by less are none, rad.
 const STRAIGHT: f64 = 1e-9;
 
@@ -28,6 +32,9 @@ pub struct Edge {
     pub closed: bool,
     /// Whether the tool is on its left.
     pub left: bool,
+    /// Whether the axis goes about corners that stand out in arcs, else to where the lines beside them meet: of walls that lean, the
+    /// corner between two comes out farther than they do.
+    pub rounds: bool,
 }
 
 /// A stretch of the axis' path, mm.
@@ -212,6 +219,8 @@ impl Beside<'_> {
         let angle = libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
         let towards_tool = self.side() * angle;
         if towards_tool < -STRAIGHT {
+            let meet = !self.edge.rounds && angle.abs() < MOST_MITER;
+            let deviation = if meet { f64::INFINITY } else { deviation };
             return Joint { trim: 0.0, about: around(self.corner(i + 1), self.arm(u), angle, deviation) };
         }
         let trim = self.distance * libm::tan(0.5 * towards_tool.max(0.0));
@@ -242,8 +251,8 @@ fn lines(edge: &Edge, distance: f64, deviation: f64) -> Vec<Line> {
 /// Corners of a line that goes about a corner by an angle from an arm on, without coming nearer than the arm is long.
 fn around([x, y]: [f64; 2], [ax, ay]: [f64; 2], angle: f64, deviation: f64) -> Vec<[f64; 2]> {
     let radius = libm::hypot(ax, ay);
-    let step = 2.0 * libm::acos((radius / (radius + deviation)).clamp(-1.0, 1.0));
-    let count = if step > 0.0 { (angle.abs() / step).ceil().clamp(1.0, 1000.0) } else { 1000.0 };
+    let step = 2.0 * libm::acos((radius / (radius + deviation)).clamp(0.0, 1.0));
+    let count = if deviation.is_infinite() { 1.0 } else { (angle.abs() / step).ceil().clamp(1.0, 1000.0) };
     let far = 1.0 / libm::cos(0.5 * angle / count);
     let turned = |by: f64, scale: f64| {
         let (sin, cos) = libm::sincos(by);
@@ -324,7 +333,7 @@ mod tests {
     use super::*;
 
     fn square(left: bool) -> Edge {
-        Edge { corners: vec![[0.0, 0.0], [10.0, 0.0], [10.0, 8.0], [0.0, 8.0]], closed: true, left }
+        Edge { corners: vec![[0.0, 0.0], [10.0, 0.0], [10.0, 8.0], [0.0, 8.0]], closed: true, left, rounds: true }
     }
 
     fn off([x, y]: [f64; 2]) -> f64 {
@@ -345,6 +354,14 @@ mod tests {
         }
         let exact = 36.0 + std::f64::consts::TAU * 1.5;
         assert!((only.length() - exact).abs() < 0.02, "{} {exact}", only.length());
+    }
+
+    #[test]
+    fn where_walls_lean_lines_go_on_to_where_they_meet() {
+        let edge = Edge { rounds: false, ..square(false) };
+        let found = stretches(&edge, 1.5, 0.002, |_| true, &Watch::default()).unwrap();
+        let [only] = found.as_slice() else { panic!("{found:?}") };
+        assert!(only.closed && only.points.len() == 6 && (only.length() - 2.0 * (13.0 + 11.0)).abs() < 1e-9);
     }
 
     #[test]

@@ -3,10 +3,12 @@
 //! No more: feeds of such an operation are measured against the part with these edges chamfered, as all others are against the part
 //! itself. No less: the two lines in which each chamfer ends are followed, and what the moving tool leaves over them is measured; where
 //! it leaves too much, a tool is put where it would make them. Is that free, then a pass is missing, else the edge is not reached.
+//!
+//! The method: `docs/concepts/chamfers.md`.
 
 use std::collections::BTreeMap;
 
-use styluscam_geometry::{chamfered, Bvh, Mesh, Vector};
+use styluscam_geometry::{ChamferEdge, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
 use crate::clearance::Prober;
@@ -14,6 +16,8 @@ use crate::coverage::Sweeps;
 use crate::expectation::{ChamferedEdge, Chamfering};
 use crate::faults::{self, Fault};
 use crate::findings::{Finding, FindingKind, Severity};
+use crate::holding::{colliders, Collider};
+use crate::made::Shapes;
 use crate::measure::{deepest_of, gouge_level};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
@@ -25,35 +29,6 @@ const APART: f64 = 0.25;
 const MOST: usize = 4000;
 /// Less of an edge is no length, mm.
 const NOTHING: f64 = 0.02;
-
-/// The part as operations that chamfer its edges are to make it.
-pub(crate) struct Shapes {
-    /// By the operation's number; none of operations that chamfer nothing.
-    all: Vec<Option<(Mesh, Bvh)>>,
-}
-
-impl Shapes {
-    pub fn of(subject: &Subject) -> Self {
-        let shape = |chamfering: &Chamfering| {
-            let edges: Vec<_> = chamfering.edges.iter().map(|piece| piece.edge).collect();
-            // chamfers that do not fit are refused before anything is planned: the part as it is only finds more
-            let mesh = chamfered(subject.mesh, &edges, chamfering.size).ok()?;
-            let bvh = Bvh::new(&mesh);
-            Some((mesh, bvh))
-        };
-        let of = |operation: &crate::ExpectedOperation| operation.expectation.chamfering().and_then(shape);
-        Self { all: subject.expected.iter().map(of).collect() }
-    }
-
-    fn at(&self, operation: usize) -> Option<(&Mesh, &Bvh)> {
-        self.all.get(operation)?.as_ref().map(|(mesh, bvh)| (mesh, bvh))
-    }
-
-    /// What a feed is to leave whole, where that is not the part itself.
-    pub fn of_segment(&self, segment: &Segment) -> Option<(&Mesh, &Bvh)> {
-        segment.expected.filter(|_| segment.kind != SegmentKind::Rapid).and_then(|number| self.at(number))
-    }
-}
 
 /// What is found of operations that chamfer edges.
 #[derive(Default)]
@@ -81,6 +56,7 @@ pub(crate) fn judged(
         let sweeps = Sweeps::of(&feeds, subject, [0.0; 2]);
         let Some(body) = sweeps.body(operation.tool) else { continue };
         let (mesh, bvh) = shapes.at(number).unwrap_or((subject.mesh, subject.bvh));
+        let level = gouge_level(subject, limits);
         let look = Look {
             chamfering,
             subject,
@@ -89,6 +65,7 @@ pub(crate) fn judged(
             prober: Prober { body, mesh, bvh },
             excess: limits.excess_of(last.operation).unwrap_or(0.0),
             lowest: operation.expectation.heights[0] - SLACK,
+            above: subject.tools.get(operation.tool).map_or_else(Vec::new, |tool| colliders(tool, subject, level)),
         };
         judged.faults.extend(own.iter().filter_map(|segment| look.plunge(segment)));
         let mut unreached = BTreeMap::new();
@@ -112,6 +89,8 @@ struct Look<'a> {
     excess: f64,
     /// The lowest height of the tip, mm.
     lowest: f64,
+    /// What is above the tool's profile, and what it must not come near.
+    above: Vec<Collider<'a>>,
 }
 
 impl Look<'_> {
@@ -163,14 +142,18 @@ impl Look<'_> {
     }
 
     /// Whether a tool that makes the chamfer at a point of an edge stays out of all else.
-    fn is_free(&self, edge: &styluscam_geometry::ChamferEdge, at: Vector) -> bool {
+    fn is_free(&self, edge: &ChamferEdge, at: Vector) -> bool {
         let Chamfering { size, tip_below, beside, .. } = *self.chamfering;
         // the triangles may lie inside of the part
         let beside = beside + self.subject.deviation_inward / libm::cos(size.half_angle);
         let tip = at - beside * edge.inward - tip_below * Vector::z();
-        let touch = self.prober.at(self.prober.body.position(tip.into()), None);
-        let level = gouge_level(self.subject, self.limits) - SLACK;
-        tip.z >= self.lowest && touch.is_none_or(|touch| touch.value > level)
+        let keeps = |prober: &Prober<'_>, least: f64| {
+            let touch = prober.at(prober.body.position(tip.into()), None);
+            touch.is_none_or(|touch| touch.value > least - SLACK)
+        };
+        tip.z >= self.lowest
+            && keeps(&self.prober, gouge_level(self.subject, self.limits))
+            && self.above.iter().all(|collider| keeps(&collider.prober(), collider.least))
     }
 }
 

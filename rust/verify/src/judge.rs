@@ -3,10 +3,10 @@
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::assignment::Assignment;
-use crate::chamfered::Shapes;
 use crate::faults::Fault;
 use crate::findings::{Finding, FindingKind, Severity};
 use crate::frame::Frame;
+use crate::made::Shapes;
 use crate::measure::measure;
 use crate::merge::{merge, Merged};
 use crate::report::Report;

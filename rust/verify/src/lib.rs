@@ -60,6 +60,7 @@ mod judge;
 mod leaning;
 mod level_moves;
 mod low_links;
+mod made;
 mod measure;
 mod merge;
 mod pair;

@@ -7,12 +7,12 @@ use styluscam_geometry::Vector;
 use styluscam_motion::{ArcPath, Cancelled, Watch};
 
 use crate::body::Body;
-use crate::chamfered::Shapes;
 use crate::clearance::{Prober, Touch};
 use crate::expectation::ExpectedOperation;
 use crate::frame::Frame;
 use crate::holding::{colliders, Collider};
 use crate::holes;
+use crate::made::Shapes;
 use crate::region_faults::Regions;
 use crate::samples::{lowest, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};

@@ -28,12 +28,14 @@ use crate::{JobError, OperationKeys, Scene};
 const LEAST_TURN: f64 = 0.02;
 /// By how much a wall is steeper than the cone at least, rad.
 const STEEPER: f64 = 0.05;
-/// Rise over run of the way down onto an edge: 10 degrees.
+/// Rise over run of ramps down onto an edge: 10 degrees.
 const ENTRY: f64 = 0.176;
 /// Air between cone and edge where the tool has come straight down, mm.
 const AIR: f64 = 0.2;
 /// Chords about corners go so far out at most, mm.
 const CHORDS: f64 = 0.002;
+/// Walls that lean out by less are upright, rad.
+const UPRIGHT: f64 = 1e-6;
 /// Heights that differ by less are the same, mm.
 const SAME: f64 = 1e-5;
 /// Positions of an edge are looked at so far apart at most, mm.
@@ -337,7 +339,12 @@ fn edge_of(chain: &EdgeChain, ahead: bool) -> Edge {
     if !ahead {
         corners.reverse();
     }
-    Edge { corners, closed: chain.closed, left: !ahead }
+    Edge {
+        corners,
+        closed: chain.closed,
+        left: !ahead,
+        rounds: chain.pieces.iter().all(|piece| piece.edge.lean <= UPRIGHT),
+    }
 }
 
 /// Adds the length of each edge at which the tool is not free, by its name.
