@@ -3,6 +3,9 @@
 //! At an edge a wedge is taken off, which ends between neighbouring edges in the upright plane that halves their corner. Triangles are cut
 //! at the wedges' planes, what lies in a wedge is dropped, and its slope is put there instead.
 
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{RTree, AABB};
+
 use crate::{GeometryError, Mesh, Vector};
 
 /// How far a wall's triangles may lie in front of the plane through its edge, mm: round walls are twisted by as much.
@@ -89,7 +92,7 @@ impl ChamferEdge {
         goes_on.then_some(if outwards { [a, d, c, b] } else { [a, b, c, d] })
     }
 
-    /// Half spaces whose common part the wedge is: normals outwards, and what their points reach along them at most, mm.
+    /// The planes of its wedge.
     fn planes(&self, size: ChamferSize) -> [(Vector, f64); 5] {
         let (sin, cos) = libm::sincos(size.half_angle);
         let (start, end) = (self.ends[0], self.ends[1]);
@@ -105,12 +108,19 @@ impl ChamferEdge {
     }
 
     /// The box around its wedge.
-    fn bounds(&self, size: ChamferSize) -> Option<(Vector, Vector)> {
-        let [a, b, c, d] = self.slope(size)?;
+    fn bounds(&self, [a, b, c, d]: [Vector; 4]) -> (Vector, Vector) {
         let corners = [a, b, c, d, self.ends[0], self.ends[1]];
         let (low, high) = corners.iter().fold((a, a), |(low, high), p| (low.inf(p), high.sup(p)));
-        Some((low - Vector::repeat(TWISTED), high + Vector::repeat(TWISTED)))
+        (low - Vector::repeat(TWISTED), high + Vector::repeat(TWISTED))
     }
+}
+
+/// Refuses edges that are too short for their neighbours' chamfers.
+///
+/// # Errors
+/// [`GeometryError::WideChamfer`].
+pub fn check_chamfers(edges: &[ChamferEdge], size: ChamferSize) -> Result<(), GeometryError> {
+    wedges(edges, size).map(drop)
 }
 
 /// The mesh with its edges chamfered. Its triangles have the faces that they had; slopes have that of 0.
@@ -118,35 +128,49 @@ impl ChamferEdge {
 /// # Errors
 /// [`GeometryError::WideChamfer`] where edges are too short for their neighbours' chamfers.
 pub fn chamfered(mesh: &Mesh, edges: &[ChamferEdge], size: ChamferSize) -> Result<Mesh, GeometryError> {
-    let wedges = edges.iter().map(|edge| {
-        let bounds = edge.bounds(size).ok_or(GeometryError::WideChamfer { at: edge.ends[0].into() })?;
-        Ok((bounds, edge.planes(size)))
+    let wedges = wedges(edges, size)?;
+    let boxes = wedges.iter().enumerate().map(|(number, wedge)| {
+        let (low, high) = wedge.bounds;
+        GeomWithData::new(Rectangle::from_corners(low.into(), high.into()), number)
     });
-    let wedges: Vec<Wedge> = wedges.collect::<Result<_, GeometryError>>()?;
-    let around = wedges.iter().map(|(bounds, _)| *bounds).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
+    let tree: RTree<GeomWithData<Rectangle<[f64; 3]>, usize>> = RTree::bulk_load(boxes.collect());
     let mut pieces: Vec<([Vector; 3], u32)> = Vec::with_capacity(mesh.triangles().len() + 2 * edges.len());
     for triangle in 0..mesh.triangles().len() {
         let (corners, face) = (mesh.corners(triangle), mesh.faces().get(triangle).copied().unwrap_or(0));
+        let [a, b, c] = corners;
+        let around = AABB::from_corners(a.inf(&b).inf(&c).into(), a.sup(&b).sup(&c).into());
+        let mut near: Vec<usize> = tree.locate_in_envelope_intersecting(around).map(|found| found.data).collect();
+        near.sort_unstable();
         let mut polygons = vec![corners.to_vec()];
-        if around.is_some_and(|around| meets(around, &corners)) {
-            for (bounds, planes) in wedges.iter().filter(|(bounds, _)| meets(*bounds, &corners)) {
-                polygons = polygons.into_iter().flat_map(|polygon| without(polygon, *bounds, planes)).collect();
-            }
+        for wedge in near.into_iter().filter_map(|number| wedges.get(number)) {
+            polygons = polygons.into_iter().flat_map(|polygon| without(polygon, wedge)).collect();
         }
         pieces.extend(polygons.iter().flat_map(|polygon| fan(polygon)).map(|corners| (corners, face)));
     }
-    for edge in edges {
-        let slope = edge.slope(size).ok_or(GeometryError::WideChamfer { at: edge.ends[0].into() })?;
-        pieces.extend(fan(&slope).map(|corners| (corners, 0)));
-    }
+    pieces.extend(wedges.iter().flat_map(|wedge| fan(&wedge.slope)).map(|corners| (corners, 0)));
     let vertices = pieces.iter().flat_map(|(corners, _)| *corners).collect();
     let triangles: Vec<[i64; 3]> = (0..pieces.len() as i64).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let faces: Vec<u32> = pieces.iter().map(|(_, face)| *face).collect();
     Mesh::new(vertices, &triangles, &faces)
 }
 
-/// The box around a wedge, and its planes.
-type Wedge = ((Vector, Vector), [(Vector, f64); 5]);
+/// What is taken off at an edge.
+struct Wedge {
+    /// The box around it.
+    bounds: (Vector, Vector),
+    /// Half spaces whose common part it is: normals outwards, and what their points reach along them at most, mm.
+    planes: [(Vector, f64); 5],
+    /// The corners of what is put in its place.
+    slope: [Vector; 4],
+}
+
+fn wedges(edges: &[ChamferEdge], size: ChamferSize) -> Result<Vec<Wedge>, GeometryError> {
+    let wedge = |edge: &ChamferEdge| {
+        let slope = edge.slope(size).ok_or(GeometryError::WideChamfer { at: edge.ends[0].into() })?;
+        Ok(Wedge { bounds: edge.bounds(slope), planes: edge.planes(size), slope })
+    };
+    edges.iter().map(wedge).collect()
+}
 
 fn meets((low, high): (Vector, Vector), corners: &[Vector]) -> bool {
     (0..3).all(|axis| {
@@ -156,12 +180,12 @@ fn meets((low, high): (Vector, Vector), corners: &[Vector]) -> bool {
 }
 
 /// A convex polygon without what of it lies inside of all planes, in convex pieces.
-fn without(polygon: Vec<Vector>, bounds: (Vector, Vector), planes: &[(Vector, f64)]) -> Vec<Vec<Vector>> {
-    if !meets(bounds, &polygon) {
+fn without(polygon: Vec<Vector>, wedge: &Wedge) -> Vec<Vec<Vector>> {
+    if !meets(wedge.bounds, &polygon) {
         return vec![polygon];
     }
     let (mut inside, mut outside) = (polygon.clone(), Vec::new());
-    for (normal, reach) in planes {
+    for (normal, reach) in &wedge.planes {
         let over = clipped(&inside, -*normal, -reach);
         inside = clipped(&inside, *normal, *reach);
         if area(&over) > NOTHING {

@@ -26,7 +26,7 @@ mod tool_flank;
 mod tool_parts;
 mod trimmed;
 
-pub use chamfer::{chamfered, ChamferEdge, ChamferSize};
+pub use chamfer::{chamfered, check_chamfers, ChamferEdge, ChamferSize};
 pub use curvature::{bend, wall_axes, Bend};
 pub use cutter::{Cutter, Height, SupportingLine};
 pub use elementary::{Axes, ElementaryKind, ElementarySurface, Spacing};

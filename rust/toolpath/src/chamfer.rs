@@ -349,7 +349,7 @@ mod tests {
             for share in [0.0, 0.25, 0.5, 0.75] {
                 let line = Line { ends: [pair[0], pair[1]] };
                 let distance = off(line.at(share));
-                assert!(distance >= 1.5 - 1e-9 && distance <= 1.502 + 1e-9, "{distance}");
+                assert!((1.5 - 1e-9..=1.502 + 1e-9).contains(&distance), "{distance}");
             }
         }
         let exact = 36.0 + std::f64::consts::TAU * 1.5;

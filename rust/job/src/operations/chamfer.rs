@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::{chamfered, ChamferEdge, ChamferSize, NurbsCurve, ToolBody};
+use styluscam_geometry::{chamfered, check_chamfers, ChamferEdge, ChamferSize, Mesh, NurbsCurve, ToolBody, Vector};
 use styluscam_motion::{Move, Role, SpindleDirection};
 use styluscam_toolpath::chamfer::{followed, stretches, Edge, Stretch};
 use styluscam_toolpath::offset::{Envelope, Index};
@@ -274,9 +274,7 @@ impl OperationKind for Chamfer {
             return Err(JobError::document("conflict", path, message, "remove setup.sheet"));
         }
         let work = self.work(given, path)?;
-        let edges = work.edges();
-        let shape = chamfered(&given.scene.mesh, &edges, work.size);
-        shape.map(drop).map_err(JobError::geometry(format!("{path}.width")))
+        check_chamfers(&work.edges(), work.size).map_err(JobError::geometry(format!("{path}.width")))
     }
 
     fn passes(&self, given: &PassContext<'_>) -> Passes {
@@ -316,7 +314,7 @@ struct Room<'a> {
 }
 
 impl<'a> Room<'a> {
-    fn new(context: &'a Context<'_>, (shape, index): (&'a styluscam_geometry::Mesh, &'a Index), margin: f64) -> Self {
+    fn new(context: &'a Context<'_>, (shape, index): (&'a Mesh, &'a Index), margin: f64) -> Self {
         let scene = context.scene;
         let above = context.tool.bodies_above(None).into_iter();
         let above = above.map(|(_, solid)| Envelope::of_body(&scene.mesh, &scene.index, solid.grown(margin)));
@@ -331,7 +329,7 @@ impl<'a> Room<'a> {
 
 /// A chain as the tool goes along it: in the direction of its pieces, with the level face on the left, or back.
 fn edge_of(chain: &EdgeChain, ahead: bool) -> Edge {
-    let plan = |point: styluscam_geometry::Vector| [point.x, point.y];
+    let plan = |point: Vector| [point.x, point.y];
     let mut corners: Vec<[f64; 2]> = chain.pieces.iter().map(|piece| plan(piece.edge.ends[0])).collect();
     if !chain.closed {
         corners.extend(chain.pieces.last().map(|piece| plan(piece.edge.ends[1])));
@@ -383,7 +381,7 @@ fn moved(
         if first.z < scene.retract {
             moves.push(Move::feed(first.into(), feeds.plunge));
         }
-        let way = |points: Vec<styluscam_geometry::Vector>, role: Role| {
+        let way = |points: Vec<Vector>, role: Role| {
             points.into_iter().skip(1).map(move |point| Move::feed(point.into(), feeds.cut).role(role))
         };
         moves.extend(way(down, Role::Ramp).chain(way(along, Role::Cut)).chain(way(up, Role::Ramp)));
