@@ -12,6 +12,12 @@ use crate::{GeometryError, Mesh, Vector};
 const TWISTED: f64 = 5e-3;
 /// Heights that differ by less are the same, mm.
 const SAME: f64 = 1e-4;
+/// How far slopes are drawn out beyond their ends before they are cut off, in their widths.
+const FAR: f64 = 100.0;
+/// A level face around which chamfers turn by more, while they meet across it, is gone, rad.
+const AROUND: f64 = 2.6;
+/// What lies so little beyond a plane lies in it, mm.
+const EXACT: f64 = 1e-9;
 /// Pieces of less area are none, mm^2.
 const NOTHING: f64 = 1e-12;
 
@@ -77,19 +83,31 @@ impl ChamferEdge {
         (point - self.ends[0]).dot(&self.miters[0]) >= 0.0 && (point - self.ends[1]).dot(&self.miters[1]) <= 0.0
     }
 
-    /// The corners of the slope, counterclockwise seen from outside; none where its neighbours leave it no length.
-    fn slope(&self, size: ChamferSize) -> Option<[Vector; 4]> {
+    /// The corners of the slope, counterclockwise seen from outside, and whether its neighbours' leave it less than its width.
+    fn slope(&self, size: ChamferSize) -> (Vec<Vector>, bool) {
         let along = self.along();
+        let lines = self.lines(size);
         let on = |end: usize, offset: Vector| {
             let miter = self.miters[end];
             self.ends[end] + offset - along * (offset.dot(&miter) / along.dot(&miter))
         };
-        let [top, low] = self.lines(size);
+        let [top, low] = lines;
         let corners = [on(0, top), on(1, top), on(1, low), on(0, low)];
-        let goes_on = (corners[1] - corners[0]).dot(&along) > 0.0 && (corners[2] - corners[3]).dot(&along) > 0.0;
-        let outwards = Vector::z().cross(&along).dot(&self.inward) > 0.0;
-        let [a, b, c, d] = corners;
-        goes_on.then_some(if outwards { [a, d, c, b] } else { [a, b, c, d] })
+        let goes_on = |[from, to]: [usize; 2]| (corners[to] - corners[from]).dot(&along) > 0.0;
+        let is_whole = goes_on([0, 1]) && goes_on([3, 2]);
+        let mut slope = corners.to_vec();
+        if !is_whole {
+            // neighbours meet across it: what is between the planes in which it ends
+            let far = along * (self.length() + FAR * lines.iter().map(|line| line.norm()).fold(0.0, f64::max));
+            let [begin, end] = self.ends;
+            slope = vec![begin + top - far, end + top + far, end + low + far, begin + low - far];
+            slope = clipped(&slope, -self.miters[0], -self.miters[0].dot(&begin));
+            slope = clipped(&slope, self.miters[1], self.miters[1].dot(&end));
+        }
+        if Vector::z().cross(&along).dot(&self.inward) > 0.0 {
+            slope.reverse();
+        }
+        (slope, !is_whole)
     }
 
     /// The planes of its wedge.
@@ -108,14 +126,15 @@ impl ChamferEdge {
     }
 
     /// The box around its wedge.
-    fn bounds(&self, [a, b, c, d]: [Vector; 4]) -> (Vector, Vector) {
-        let corners = [a, b, c, d, self.ends[0], self.ends[1]];
-        let (low, high) = corners.iter().fold((a, a), |(low, high), p| (low.inf(p), high.sup(p)));
+    fn bounds(&self, slope: &[Vector]) -> (Vector, Vector) {
+        let [from, to] = self.ends;
+        let ends = (from.inf(&to), from.sup(&to));
+        let (low, high) = slope.iter().fold(ends, |(low, high), p| (low.inf(p), high.sup(p)));
         (low - Vector::repeat(TWISTED), high + Vector::repeat(TWISTED))
     }
 }
 
-/// Refuses edges that are too short for their neighbours' chamfers.
+/// Refuses chamfers that meet across the level face all around it: it would be gone.
 ///
 /// # Errors
 /// [`GeometryError::WideChamfer`].
@@ -126,7 +145,7 @@ pub fn check_chamfers(edges: &[ChamferEdge], size: ChamferSize) -> Result<(), Ge
 /// The mesh with its edges chamfered. Its triangles have the faces that they had; slopes have that of 0.
 ///
 /// # Errors
-/// [`GeometryError::WideChamfer`] where edges are too short for their neighbours' chamfers.
+/// [`GeometryError::WideChamfer`] where chamfers meet across the level face all around it.
 pub fn chamfered(mesh: &Mesh, edges: &[ChamferEdge], size: ChamferSize) -> Result<Mesh, GeometryError> {
     let wedges = wedges(edges, size)?;
     let boxes = wedges.iter().enumerate().map(|(number, wedge)| {
@@ -134,20 +153,29 @@ pub fn chamfered(mesh: &Mesh, edges: &[ChamferEdge], size: ChamferSize) -> Resul
         GeomWithData::new(Rectangle::from_corners(low.into(), high.into()), number)
     });
     let tree: RTree<GeomWithData<Rectangle<[f64; 3]>, usize>> = RTree::bulk_load(boxes.collect());
-    let mut pieces: Vec<([Vector; 3], u32)> = Vec::with_capacity(mesh.triangles().len() + 2 * edges.len());
-    for triangle in 0..mesh.triangles().len() {
-        let (corners, face) = (mesh.corners(triangle), mesh.faces().get(triangle).copied().unwrap_or(0));
-        let [a, b, c] = corners;
-        let around = AABB::from_corners(a.inf(&b).inf(&c).into(), a.sup(&b).sup(&c).into());
+    // what is left of a polygon, by the wedges but its own
+    let left = |polygon: Vec<Vector>, own: Option<usize>| {
+        let first = polygon.first().copied().unwrap_or_default();
+        let (low, high) = polygon.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+        let around = AABB::from_corners(low.into(), high.into());
         let mut near: Vec<usize> = tree.locate_in_envelope_intersecting(around).map(|found| found.data).collect();
         near.sort_unstable();
-        let mut polygons = vec![corners.to_vec()];
-        for wedge in near.into_iter().filter_map(|number| wedges.get(number)) {
-            polygons = polygons.into_iter().flat_map(|polygon| without(polygon, wedge)).collect();
-        }
+        let others = near.into_iter().filter(|number| Some(*number) != own).filter_map(|number| wedges.get(number));
+        others.fold(vec![polygon], |polygons, wedge| {
+            polygons.into_iter().flat_map(|polygon| without(polygon, wedge)).collect::<Vec<_>>()
+        })
+    };
+    let mut pieces: Vec<([Vector; 3], u32)> = Vec::with_capacity(mesh.triangles().len() + 2 * edges.len());
+    let mut take = |polygons: Vec<Vec<Vector>>, face: u32| {
         pieces.extend(polygons.iter().flat_map(|polygon| fan(polygon)).map(|corners| (corners, face)));
+    };
+    for triangle in 0..mesh.triangles().len() {
+        let face = mesh.faces().get(triangle).copied().unwrap_or(0);
+        take(left(mesh.corners(triangle).to_vec(), None), face);
     }
-    pieces.extend(wedges.iter().flat_map(|wedge| fan(&wedge.slope)).map(|corners| (corners, 0)));
+    for (number, wedge) in wedges.iter().enumerate().filter(|(_, wedge)| wedge.slope.len() > 2) {
+        take(left(wedge.slope.clone(), Some(number)), 0);
+    }
     let vertices = pieces.iter().flat_map(|(corners, _)| *corners).collect();
     let triangles: Vec<[i64; 3]> = (0..pieces.len() as i64).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let faces: Vec<u32> = pieces.iter().map(|(_, face)| *face).collect();
@@ -161,13 +189,19 @@ struct Wedge {
     /// Half spaces whose common part it is: normals outwards, and what their points reach along them at most, mm.
     planes: [(Vector, f64); 5],
     /// The corners of what is put in its place.
-    slope: [Vector; 4],
+    slope: Vec<Vector>,
 }
 
 fn wedges(edges: &[ChamferEdge], size: ChamferSize) -> Result<Vec<Wedge>, GeometryError> {
+    let mut turned = 0.0;
     let wedge = |edge: &ChamferEdge| {
-        let slope = edge.slope(size).ok_or(GeometryError::WideChamfer { at: edge.ends[0].into() })?;
-        Ok(Wedge { bounds: edge.bounds(slope), planes: edge.planes(size), slope })
+        let (slope, is_cut) = edge.slope(size);
+        // how far those turn in a row of which neighbours leave less than their width
+        turned = if is_cut { turned + libm::acos(edge.miters[0].dot(&edge.miters[1]).clamp(-1.0, 1.0)) } else { 0.0 };
+        if turned > AROUND {
+            return Err(GeometryError::WideChamfer { at: edge.ends[0].into() });
+        }
+        Ok(Wedge { bounds: edge.bounds(&slope), planes: edge.planes(size), slope })
     };
     edges.iter().map(wedge).collect()
 }
@@ -186,10 +220,13 @@ fn without(polygon: Vec<Vector>, wedge: &Wedge) -> Vec<Vec<Vector>> {
     }
     let (mut inside, mut outside) = (polygon.clone(), Vec::new());
     for (normal, reach) in &wedge.planes {
-        let over = clipped(&inside, -*normal, -reach);
-        inside = clipped(&inside, *normal, *reach);
-        if area(&over) > NOTHING {
-            outside.push(over);
+        // what lies in the plane is inside
+        if inside.iter().any(|point| normal.dot(point) - reach > EXACT) {
+            let over = clipped(&inside, -*normal, -reach);
+            inside = clipped(&inside, *normal, *reach);
+            if area(&over) > NOTHING {
+                outside.push(over);
+            }
         }
         if area(&inside) <= NOTHING {
             return vec![polygon]; // whole, and not in the pieces that the planes make of it
@@ -299,9 +336,43 @@ mod tests {
     }
 
     #[test]
-    fn edges_too_short_for_their_neighbours_chamfers_are_an_error() {
+    fn chamfers_of_a_narrow_rib_meet_in_a_ridge() {
         let (mesh, edges) = cuboid(SIZE);
-        let error = chamfered(&mesh, &edges, ChamferSize { width: 4.1, ..SIZE }).unwrap_err();
+        // of 8 mm between the long edges, chamfers of 5 mm overlap on 2 mm, and the triangle there is taken off once
+        let open = |edge: &ChamferEdge| ChamferEdge { miters: [edge.along(); 2], ..*edge };
+        let long = [open(&edges[0]), open(&edges[2])];
+        let found = chamfered(&mesh, &long, ChamferSize { width: 5.0, ..SIZE }).unwrap();
+        assert!((volume(&found) - 10.0 * (48.0 - 25.0 + 1.0)).abs() < 1e-9, "{}", volume(&found));
+    }
+
+    #[test]
+    fn an_edge_shorter_than_its_neighbours_chamfers_take_is_cut_off_by_them() {
+        let (mesh, edges) = cuboid(SIZE);
+        let size = ChamferSize { width: 4.5, ..SIZE };
+        // a hip roof: two slopes of 4.5 mm over 8 mm meet in a ridge at 4 mm
+        let found = chamfered(&mesh, &edges, size).unwrap();
+        let ridge = 10.0 - 8.0;
+        let roof = 8.0 * 4.0 * (2.0 * 10.0 + ridge) / 6.0;
+        assert!((volume(&found) - (80.0 * 1.5 + roof)).abs() < 1e-9, "{}", volume(&found));
+    }
+
+    #[test]
+    fn a_boss_that_would_be_gone_is_an_error() {
+        let (mesh, _) = cuboid(SIZE);
+        let corner = |i: usize| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * i as f64 / 24.0);
+            Vector::new(3.0 * cos, 3.0 * sin, 6.0)
+        };
+        let along = |i: usize| (corner(i + 1) - corner(i)).normalize();
+        let edge = |i: usize| ChamferEdge {
+            ends: [corner(i), corner(i + 1)],
+            inward: Vector::z().cross(&along(i)),
+            lean: 0.0,
+            miters: [(along(i + 23) + along(i)).normalize(), (along(i) + along(i + 1)).normalize()],
+        };
+        let edges: Vec<ChamferEdge> = (0..24).map(edge).collect();
+        assert!(chamfered(&mesh, &edges, ChamferSize { width: 2.9, ..SIZE }).is_ok());
+        let error = chamfered(&mesh, &edges, ChamferSize { width: 3.1, ..SIZE }).unwrap_err();
         assert!(matches!(error, GeometryError::WideChamfer { .. }), "{error}");
     }
 }

@@ -78,9 +78,9 @@ pub enum GeometryError {
     /// No triangle of positive area is left: the selection or the file is empty.
     #[error("the mesh has no triangle of positive area")]
     EmptyMesh,
-    /// A chamfer leaves nothing of an edge between its neighbours.
+    /// Chamfers leave nothing of a level face.
     #[error(
-        "the chamfer is too wide for the edge at X{:.3} Y{:.3} Z{:.3}: those of its neighbours meet across it; lower the width",
+        "the chamfer is too wide for the face beside the edge at X{:.3} Y{:.3} Z{:.3}: from all around it takes all of it; lower the width",
         .at[0], .at[1], .at[2]
     )]
     WideChamfer {
