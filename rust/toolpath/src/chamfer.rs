@@ -11,7 +11,7 @@ use styluscam_motion::{Cancelled, Watch};
 /// Ends of neighbouring pieces that lie nearer belong together, mm.
 const JOINED: f64 = 2e-3;
 /// Positions are looked at so far apart at most, mm.
-const APART: f64 = 0.4;
+const APART: f64 = 0.05;
 /// Where a free stretch ends is found to this, mm.
 const EXACT: f64 = 1e-5;
 /// Shorter stretches are none, mm.
