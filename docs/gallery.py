@@ -142,6 +142,17 @@ EXAMPLES = (
         more={"tools": {"stylus": {"profile": {"kind": "flat", "diameter": 4.0}}}},
     ),
     Example(
+        "chamfer",
+        "Chamfered edges",
+        "`chamfer`: sharp edges of level faces by the cone of a V tool; what it cannot reach is listed. Milling.",
+        "edges",
+        {"kind": "chamfer", "width": 1.0},
+        process={"kind": "milling"},
+        more={
+            "tools": {"stylus": {"profile": {"kind": "v", "tip_diameter": 0.0, "angle_deg": 90.0, "diameter": 10.0}}}
+        },
+    ),
+    Example(
         "constant-scallop",
         "Equal scallop everywhere",
         "`constant-scallop`: contours from the border inwards, as far apart as the scallop allows on every slope. Milling.",

@@ -84,6 +84,15 @@ pub enum GeometryError {
         /// Where, mm.
         at: [f64; 3],
     },
+    /// Chamfers leave nothing of a level face.
+    #[error(
+        "the chamfer is too wide for the face beside the edge at X{:.3} Y{:.3} Z{:.3}: from all around it takes all of it; lower the width",
+        .at[0], .at[1], .at[2]
+    )]
+    WideChamfer {
+        /// Where the edge begins, mm.
+        at: [f64; 3],
+    },
     /// The part is larger than any machine: most likely its units are wrong.
     #[error("the mesh reaches {reach:.3e} mm from the origin, more than {limit:.0e} mm: check its units")]
     Huge {
@@ -109,6 +118,7 @@ impl GeometryError {
             Self::TooFine { .. } => "too-fine",
             Self::EmptyMesh => "empty-mesh",
             Self::NotClosed { .. } => "not-closed",
+            Self::WideChamfer { .. } => "wide-chamfer",
             Self::Huge { .. } => "huge-mesh",
         }
     }

@@ -4,6 +4,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // what tests expect may come from std
 
+mod chamfer;
 mod curvature;
 mod cutter;
 mod elementary;
@@ -25,6 +26,7 @@ mod tool_flank;
 mod tool_parts;
 mod trimmed;
 
+pub use chamfer::{chamfered, check_chamfers, ChamferEdge, ChamferSize};
 pub use curvature::{bend, wall_axes, Bend};
 pub use cutter::{Cutter, Height, SupportingLine};
 pub use elementary::{Axes, ElementaryKind, ElementarySurface, Spacing};

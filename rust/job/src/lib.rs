@@ -22,6 +22,7 @@ mod forming;
 mod heights;
 mod holes;
 mod judge;
+mod level_edges;
 mod limits;
 mod materials;
 mod model;

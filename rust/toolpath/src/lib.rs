@@ -5,6 +5,7 @@
 mod arcs;
 pub mod boring;
 pub mod budget;
+pub mod chamfer;
 mod corners;
 mod error;
 mod fitting;

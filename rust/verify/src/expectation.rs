@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use styluscam_geometry::NurbsCurve;
+use styluscam_geometry::{ChamferEdge, ChamferSize, NurbsCurve};
 use styluscam_motion::SpindleDirection;
 
 use crate::pitch::Pitch;
@@ -102,6 +102,8 @@ pub enum Passes {
     Drilling(Drilling),
     /// Down into holes along helices about their axes: each is checked.
     Boring(Boring),
+    /// Along edges with a cone: what it makes of each is checked.
+    Chamfering(Chamfering),
     /// In no order that is known: what they leave of the faces where the tool can touch is checked.
     Covering {
         /// The most that may be left, mm.
@@ -205,6 +207,28 @@ pub struct Boring {
     pub feed_at_rim: bool,
 }
 
+/// How edges are chamfered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chamfering {
+    /// The edges, in straight pieces.
+    pub edges: Vec<ChamferedEdge>,
+    /// What is to be made of them.
+    pub size: ChamferSize,
+    /// How far the tool's tip is below an edge that it chamfers, mm.
+    pub tip_below: f64,
+    /// How far its axis is beside it, mm.
+    pub beside: f64,
+}
+
+/// A straight piece of an edge that is chamfered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChamferedEdge {
+    /// As a person names it: what it lies between.
+    pub name: String,
+    /// Its place.
+    pub edge: ChamferEdge,
+}
+
 /// A hole that the tool goes down into, work coordinates, mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrilledHole {
@@ -281,6 +305,7 @@ impl Expectation {
             | Passes::Flank(_)
             | Passes::Drilling(_)
             | Passes::Boring(_)
+            | Passes::Chamfering(_)
             | Passes::Covering { .. }
             | Passes::Unordered { .. } => &[],
         }
@@ -318,6 +343,12 @@ impl Expectation {
     pub(crate) fn boring(&self) -> Option<&Boring> {
         let Passes::Boring(boring) = &self.passes else { return None };
         Some(boring)
+    }
+
+    /// How it chamfers edges, where it does.
+    pub(crate) fn chamfering(&self) -> Option<&Chamfering> {
+        let Passes::Chamfering(chamfering) = &self.passes else { return None };
+        Some(chamfering)
     }
 
     /// The triangles that it is for.

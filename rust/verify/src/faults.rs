@@ -2,6 +2,7 @@
 //!
 //! A new kind is one constant here and one variant of [`FindingKind`].
 
+mod chamfered;
 mod drilled;
 mod stock;
 mod tabs;
@@ -10,6 +11,7 @@ use styluscam_motion::Move;
 
 use crate::findings::{FindingKind, Severity};
 
+pub(crate) use chamfered::*;
 pub(crate) use drilled::*;
 pub(crate) use stock::*;
 pub(crate) use tabs::*;

@@ -6,14 +6,16 @@ use crate::assignment::Assignment;
 use crate::faults::Fault;
 use crate::findings::{Finding, FindingKind, Severity};
 use crate::frame::Frame;
+use crate::made::Shapes;
 use crate::measure::measure;
 use crate::merge::{merge, Merged};
 use crate::report::Report;
 use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
+use crate::tally::Tally;
 use crate::{
-    bored, clearing, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair, passes, reach,
-    sequence, settings, tabs, travel, unreached, walls,
+    bored, chamfered, clearing, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair,
+    passes, reach, sequence, settings, tabs, travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.
@@ -25,7 +27,7 @@ use crate::{
 pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Report, Cancelled> {
     let segments = placed(program, subject, limits);
     let frame = Frame::of(program, &segments, subject, limits);
-    let mut tally = measure(&segments, subject, limits, frame.as_ref(), watch)?;
+    let (mut tally, not_chamfered) = measured(&segments, subject, limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
     let axes = subject.axes.unwrap_or(Axes { program, unknown_positions: subject.unknown_positions });
     let assignment = Assignment::new(program, subject);
@@ -57,7 +59,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let of_shape = found
         .chain(pair.finding)
         .chain(steep)
-        .chain(cleared.findings)
+        .chain(cleared.findings.into_iter().chain(not_chamfered))
         .chain(beyond_reach)
         .chain(travel::no_feed_moves(program));
     let of_text =
@@ -83,6 +85,21 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         engagement: cleared.engagement,
         flanks: leaning.flanks,
     })
+}
+
+/// The distances along the moves, with the faults of edges that they chamfer; and what is found of these edges beyond that.
+fn measured(
+    segments: &[Segment],
+    subject: &Subject,
+    limits: &Limits,
+    frame: Option<&Frame>,
+    watch: &Watch,
+) -> Result<(Tally, Vec<Finding>), Cancelled> {
+    let shapes = Shapes::of(subject);
+    let mut tally = measure(segments, (subject, &shapes), limits, frame, watch)?;
+    let edges = chamfered::judged(segments, (subject, &shapes), limits, watch)?;
+    tally.faults.extend(edges.faults);
+    Ok((tally, edges.findings))
 }
 
 /// What is owed to the faces of the operations and is not there.

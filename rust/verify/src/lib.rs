@@ -35,6 +35,7 @@ mod blank;
 mod body;
 mod bored;
 mod bounds;
+mod chamfered;
 mod clearance;
 mod clearing;
 mod contact_lines;
@@ -61,6 +62,7 @@ mod judge;
 mod leaning;
 mod level_moves;
 mod low_links;
+mod made;
 mod measure;
 mod merge;
 mod pair;
@@ -104,8 +106,8 @@ pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
 };
 pub use expectation::{
-    Boring, Clearing, Contact, DrilledHole, Drilling, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers,
-    OrderedPasses, Passes, TabShape,
+    Boring, ChamferedEdge, Chamfering, Clearing, Contact, DrilledHole, Drilling, Expectation, ExpectedOperation,
+    FlankFace, FlankPasses, Layers, OrderedPasses, Passes, TabShape,
 };
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};

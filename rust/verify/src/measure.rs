@@ -12,6 +12,7 @@ use crate::expectation::ExpectedOperation;
 use crate::frame::Frame;
 use crate::holding::{colliders, Collider};
 use crate::holes;
+use crate::made::Shapes;
 use crate::region_faults::Regions;
 use crate::samples::{lowest, Measured, Sample, Strike};
 use crate::segments::{Segment, SegmentKind};
@@ -42,7 +43,7 @@ struct Bodies<'a> {
 /// Measures every segment.
 pub(crate) fn measure(
     segments: &[Segment],
-    subject: &Subject,
+    (subject, shapes): (&Subject, &Shapes),
     limits: &Limits,
     frame: Option<&Frame>,
     watch: &Watch,
@@ -62,7 +63,7 @@ pub(crate) fn measure(
     let rule = Rule::new(segments, subject, limits, &regions);
     let chunks: Vec<&[Segment]> = segments.chunks(CHUNK).collect();
     let tallies = chunks.par_iter().zip(contacts_before(&chunks)).map(|(chunk, mut ordinal)| {
-        let mut walk = Walk { subject, limits, frame, bodies: &bodies, leaving: &leaving, top, last: None };
+        let mut walk = Walk { subject, shapes, limits, frame, bodies: &bodies, leaving: &leaving, top, last: None };
         let mut tally = Tally::default();
         for segment in *chunk {
             for piece in segment.pieces() {
@@ -94,6 +95,8 @@ fn contacts_before(chunks: &[&[Segment]]) -> Vec<usize> {
 /// A walk along consecutive moves, which remembers the last contact.
 struct Walk<'a> {
     subject: &'a Subject<'a>,
+    /// What operations are to make of the part.
+    shapes: &'a Shapes,
     limits: &'a Limits,
     frame: Option<&'a Frame>,
     bodies: &'a [Bodies<'a>],
@@ -111,7 +114,7 @@ impl<'a> Walk<'a> {
             return Measured::default();
         };
         let around = self.leaving_of(segment, tool);
-        let prober = self.prober(around.unwrap_or(&bodies.profile));
+        let prober = self.prober(segment, around.unwrap_or(&bodies.profile));
         let tool = (tool, segment.expected);
         let mut found = match segment.bend {
             Some(bend) => self.along_bend(segment, &bend, tool, &prober),
@@ -121,8 +124,9 @@ impl<'a> Walk<'a> {
         if around.is_some() {
             // no tool is deeper than with the stock around it
             found.taken = found.deepest.take().filter(|sample| sample.touch.value < self.gouge_level());
-            found.deepest =
-                found.taken.and_then(|_| deepest_of(segment, self.gouge_level(), &self.prober(&bodies.profile)));
+            found.deepest = found
+                .taken
+                .and_then(|_| deepest_of(segment, self.gouge_level(), &self.prober(segment, &bodies.profile)));
         }
         let colliders = bodies
             .colliders
@@ -140,8 +144,10 @@ impl<'a> Walk<'a> {
         operation.and_then(|_| self.leaving.get(number)?.as_ref())
     }
 
-    fn prober(&self, body: &'a Body) -> Prober<'a> {
-        Prober { body, mesh: self.subject.mesh, bvh: self.subject.bvh }
+    /// A body at the part, or at what the segment's operation is to make of it.
+    fn prober(&self, segment: &Segment, body: &'a Body) -> Prober<'a> {
+        let (mesh, bvh) = self.shapes.of_segment(segment).unwrap_or((self.subject.mesh, self.subject.bvh));
+        Prober { body, mesh, bvh }
     }
 
     /// Where a body comes too near to something: of what goes down with the clamp frame, where that stands before the move or

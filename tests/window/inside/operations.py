@@ -60,9 +60,9 @@ def every_kind() -> Any:
     job = stage.job_with_stylus(diameter=12.0)
     yield from stage.workbench("StylusCamWorkbench")
     result = {}
-    # a meridian is formed by spinning, a pocket is cut from stock, a flank is milled, holes are drilled and bored: not in the
-    # job of a sheet, whose part has no concave edges either
-    others = ("Drill", "Flank", "HelixBore", "Meridian", "Pencil", "Pocket")
+    # a meridian is formed by spinning, a pocket is cut from stock, a flank is milled, holes are drilled and bored, edges
+    # chamfered: not in the job of a sheet, whose part has no concave edges either
+    others = ("Chamfer", "Drill", "Flank", "HelixBore", "Meridian", "Pencil", "Pocket")
     for name in (name for name in commands.groups()["operations"] if not name.endswith(others)):
         FreeCADGui.Selection.clearSelection()
         yield from stage.press(name)

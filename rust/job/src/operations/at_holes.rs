@@ -1,7 +1,4 @@
-//! What operations at round holes share: which faces are none, the order of the holes, where material begins over them.
-
-use styluscam_geometry::Vector;
-use styluscam_toolpath::{shortly_ordered, Air, Freedom, Pass, PathPoint, Seam, Sense};
+//! What operations at round holes share: which faces are none, where material begins over them.
 
 use super::{Context, PassContext};
 use crate::holes::{leaning_hole, Hole};
@@ -50,22 +47,6 @@ pub(super) fn check_solid(context: &Context<'_>) -> Result<(), JobError> {
 pub(super) fn begins(hole: &Hole, given: &PassContext<'_>) -> f64 {
     let is_stated = given.scene.stock_words.is_some();
     hole.top.max(if is_stated { given.top } else { hole.top })
-}
-
-/// The holes in an order with short ways across, and their length, mm.
-pub(super) fn in_order(context: &Context<'_>, holes: &[Hole]) -> Result<(Vec<Hole>, f64), JobError> {
-    let pass = |(number, hole): (usize, &Hole)| {
-        let tip = Vector::new(hole.at[0], hole.at[1], context.scene.clearance);
-        let point = PathPoint { tip, normal: Vector::z(), selected: true, triangle: number as u32 };
-        Pass { points: vec![point], closed: false, group: 0 }
-    };
-    let passes: Vec<Pass> = holes.iter().enumerate().map(pass).collect();
-    let air = Air { height: context.scene.clearance, along: 0.0 };
-    let sense = (Sense::Forward, Seam::Nearest);
-    let ordered = shortly_ordered(passes, sense, Freedom::WithinGroups, &air, context.watch)?;
-    let numbers = ordered.passes.iter().filter_map(|pass| pass.points.first());
-    let holes = numbers.filter_map(|point| holes.get(point.triangle as usize).cloned()).collect();
-    Ok((holes, ordered.between[1]))
 }
 
 /// How far the tool goes on below through holes where that is not stated, mm.

@@ -7,8 +7,9 @@ use styluscam_motion::{
 };
 use styluscam_verify::{Contact, DrilledHole, Drilling, Passes};
 
-use super::at_holes::{begins, breakthrough, check_solid, check_walls, in_order, no_hole, retract_height};
+use super::at_holes::{begins, breakthrough, check_solid, check_walls, no_hole, retract_height};
 use super::facts::counted;
+use super::in_order::in_order;
 use super::keys;
 use super::{
     About, Areas, Context, Effort, Fact, Fit, LeadForm, LinkHeight, Machining, OperationKind, PassContext, PassSpacing,
@@ -266,7 +267,7 @@ impl OperationKind for Drill {
         let given = PassContext::of(context, &body);
         let (holes, others) = self.holes(&given);
         let skipped = others.len();
-        let (holes, across) = in_order(context, &holes)?;
+        let (holes, across) = in_order(context, &holes, |hole| hole.at)?;
         let mut drilled = self.drilled(context, &given, &holes)?;
         let through = holes.iter().filter(|hole| hole.floor.is_none()).count();
         drilled.facts.push(Fact::length("across", across, "across from hole to hole"));

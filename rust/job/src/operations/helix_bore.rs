@@ -7,9 +7,10 @@ use styluscam_motion::{Move, Role, SpindleDirection};
 use styluscam_toolpath::boring::{ramp, Bore, Turn};
 use styluscam_verify::{Boring, Contact, DrilledHole, Passes};
 
-use super::at_holes::{begins, breakthrough, check_solid, check_walls, in_order, no_hole, retract_height};
+use super::at_holes::{begins, breakthrough, check_solid, check_walls, no_hole, retract_height};
 use super::budget;
 use super::facts::counted;
+use super::in_order::in_order;
 use super::keys;
 use super::{
     About, Areas, Context, Direction, Effort, Fact, Fit, LeadForm, LinkHeight, Machining, OperationKind, PassContext,
@@ -225,7 +226,7 @@ impl OperationKind for HelixBore {
         let body = context.tool.body(None);
         let given = PassContext::of(context, &body);
         let (holes, others) = self.holes(&given);
-        let (holes, across) = in_order(context, &holes)?;
+        let (holes, across) = in_order(context, &holes, |hole| hole.at)?;
         let holes = from_above(holes);
         let mut bored = self.bored(context, &given, &holes)?;
         let through = holes.iter().filter(|hole| hole.floor.is_none()).count();

@@ -23,39 +23,39 @@ pub struct OperationKeys {
     /// Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
     /// walls), or names; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "drill", "helix-bore"]))]
+    #[schemars(extend("x-not-of" = ["pocket", "drill", "helix-bore", "chamfer"]))]
     pub check_faces: Option<CheckSelection>,
     /// How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "drill", "helix-bore"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
+    #[schemars(extend("x-not-of" = ["pocket", "drill", "helix-bore", "chamfer"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
     pub check_clearance: Option<f64>,
     /// Where passes may run: inside edges in plan, and on contacts of some slopes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore"], "x-example" = "{ slope_deg = [30.0, 60.0] }"))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"], "x-example" = "{ slope_deg = [30.0, 60.0] }"))]
     pub boundary: Option<BoundaryKeys>,
     /// What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
     /// that the tool comes down over.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore"]))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"]))]
     pub edges: Option<Edges>,
     /// The channel whose program does it, where the process has several; "main" when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channel: Option<String>,
     /// Height at which the operation begins, mm in work coordinates; the selected faces' top when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["flank"], "x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
+    #[schemars(extend("x-not-of" = ["flank", "chamfer"], "x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
     pub z_top: Option<f64>,
     /// Lowest height of the tip, mm in work coordinates; as deep as the tool reaches when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore"], "x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
+    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore", "chamfer"], "x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
     pub z_bottom: Option<f64>,
     /// Stock that stays on walls, mm, measured across them in plan; a pocket with `finish` takes it last.
     #[serde(default)]
-    #[schemars(extend("x-not-of" = ["flank", "drill"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
+    #[schemars(extend("x-not-of" = ["flank", "drill", "chamfer"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
     pub radial_stock_to_leave: f64,
     /// Stock that stays under the tool, on floors and slopes, mm in height; a pocket with `finish` takes it last.
     #[serde(default)]
-    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
+    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore", "chamfer"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 100.0))]
     pub axial_stock_to_leave: f64,
     /// In which direction levels and rows are run.
     #[serde(default)]
@@ -66,37 +66,37 @@ pub struct OperationKeys {
     pub tolerance: f64,
     /// What the posted path is made of.
     #[serde(default)]
-    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore"]))]
+    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore", "chamfer"]))]
     pub fit: Fit,
     /// Largest angle by which the path turns from one cutting move to the next, degrees: passes that follow the surface get shorter lines
     /// and arcs for it. Edges of the part, straight links and plunges turn by more; the verification names each. Not limited when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore"], "x-advanced" = true, "x-unit" = "deg", "minimum" = 0.1, "maximum" = 90.0))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"], "x-advanced" = true, "x-unit" = "deg", "minimum" = 0.1, "maximum" = 90.0))]
     pub max_corner_deg: Option<f64>,
     /// No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
     #[serde(default = "smallest_feature")]
-    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore"], "x-advanced" = true, "x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
+    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore", "chamfer"], "x-advanced" = true, "x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
     pub smallest_feature: f64,
     /// How high rapids from pass to pass go.
     #[serde(default)]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore"]))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"]))]
     pub links: LinkHeight,
     /// Air that rapids below clearance keep above the part, the sheet as it stands and uncut stock, mm.
     #[serde(default = "link_margin")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore"], "x-advanced" = true, "x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"], "x-advanced" = true, "x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
     pub link_margin: f64,
     /// How the tool comes from the air into a pass and leaves it; straight where that does not fit. Loops begin where it fits, unless
     /// their seam is stated.
     #[serde(default)]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore"]))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"]))]
     pub lead: LeadForm,
     /// Radius of leads, mm.
     #[serde(default = "lead_radius")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore"], "x-advanced" = true, "x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"], "x-advanced" = true, "x-unit" = "mm", "minimum" = 0.1, "maximum" = 1000.0))]
     pub lead_radius: f64,
     /// Angle of the arcs of leads, degrees.
     #[serde(default = "lead_angle")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore"], "x-advanced" = true, "x-unit" = "deg", "minimum" = 1.0, "maximum" = 90.0))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"], "x-advanced" = true, "x-unit" = "deg", "minimum" = 1.0, "maximum" = 90.0))]
     pub lead_angle_deg: f64,
     /// Feeds.
     #[serde(default)]
@@ -105,7 +105,7 @@ pub struct OperationKeys {
     /// Lower feeds before and behind sharp turns and on small arcs, as far as the machine's acceleration asks for them
     /// (`limits.acceleration` and `limits.corner_tolerance` of its file).
     #[serde(default)]
-    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore"]))]
+    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore", "chamfer"]))]
     pub slow_corners: bool,
     /// The spindle.
     #[serde(default)]

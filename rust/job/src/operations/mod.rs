@@ -23,6 +23,7 @@ mod effort;
 mod entry;
 mod facts;
 mod fit;
+mod in_order;
 mod keys;
 mod kind;
 mod levels;
@@ -58,6 +59,7 @@ kinds! {
         helix_bore::HelixBore = "helix-bore",
         constant_scallop::ConstantScallop = "constant-scallop",
         pencil::Pencil = "pencil",
+        chamfer::Chamfer = "chamfer",
     }
 }
 

@@ -131,7 +131,11 @@ fn clamped(poles: usize, degree: usize) -> Vec<f64> {
     ends(0.0).chain(inner).chain(ends(1.0)).collect()
 }
 
-fn edge(scene: &Scene, name: &str, path: &str) -> Result<NurbsCurve, JobError> {
+/// The curve of a named edge, in the frame of the part's file; `path` is that of the name.
+///
+/// # Errors
+/// "unknown".
+pub(super) fn edge(scene: &Scene, name: &str, path: &str) -> Result<NurbsCurve, JobError> {
     let number = name.strip_prefix("Edge").unwrap_or(name).parse::<usize>().ok();
     let found = number.and_then(|number| scene.curves.edges.get(number.checked_sub(1)?)).and_then(Option::clone);
     found.ok_or_else(|| {

@@ -110,6 +110,7 @@ pub fn descent_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &Opera
         | Passes::Flank(_)
         | Passes::Drilling(_)
         | Passes::Boring(_)
+        | Passes::Chamfering(_)
         | Passes::Covering { .. }
         | Passes::Unordered { .. } => None,
     }

@@ -185,6 +185,11 @@ Range: 0.0001 to 1 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>How far the lower end of the tool's cone is below the chamfer, mm: so its side cuts, and not its tip.
+Range: 0 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>How far the side of the tool goes on below the lower rail, mm; a round end lies below that. Below 0 the side ends above the rail, where a
 floor is in the way, and what is lower stays.
 Range: -100 to 100 mm</source>
@@ -377,7 +382,10 @@ machines without these arcs. Of faces = "all" wider holes are taken; named faces
 conventional are climb.
 constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.
 pencil: Passes along concave edges and narrow fillets, where the tool touches two faces at once: they take what wider steps and a larger
-tool leave in the corners.</source>
+tool leave in the corners.
+chamfer: Chamfers the sharp edges between the level ones of the selected faces and the walls that go down from them, with the cone of a tool:
+the chamfer has its angle. The model has the edges sharp. What the tool cannot reach without entering what is beside it is left, and
+listed. All directions but conventional are climb.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -462,6 +470,11 @@ Range: 1 to 3000 MPa
     <message>
         <source>The curves between which the surface is ruled; when left out, the selected faces are milled, each of which must be ruled.
 As JSON
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The edges by their names, as FreeCAD shows them: ["Edge3", "Edge7"]; all edges of the selected level faces when left out.
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -601,6 +614,11 @@ mid: The middle of the sheet.</source>
 go down to the lowest selected face that the tool reaches; of all stock to z_bottom, where that is stated.
 faces: That in areas over the selected faces: a pocket.
 stock: All that the tool reaches, around the part too: roughing.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Width of the chamfer, mm, measured level; some tenths deburr.
+Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
@@ -869,6 +887,12 @@ Range: 0 to 80 deg</source>
     </message>
     <message>
         <source>Chamfer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Chamfers the sharp edges between the level ones of the selected faces and the walls that go down from them, with the cone of a tool:
+the chamfer has its angle. The model has the edges sharp. What the tool cannot reach without entering what is beside it is left, and
+listed. All directions but conventional are climb.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1143,6 +1167,10 @@ cycle get its moves. Of faces = "all" only holes of the tool's diameter are take
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Edge names</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Edges</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1383,6 +1411,11 @@ Range: 0.1 to 1000 mm</source>
     <message>
         <source>How far above the exact path the posted one may lie, mm; below it, never more than 0.001.
 Range: 0.0001 to 1 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far the lower end of the tool's cone is below the chamfer, mm: so its side cuts, and not its tip.
+Range: 0 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1821,7 +1854,10 @@ machines without these arcs. Of faces = "all" wider holes are taken; named faces
 conventional are climb.
 constant-scallop: Contours over the surface, from its border inwards, between which the same scallop stands everywhere.
 pencil: Passes along concave edges and narrow fillets, where the tool touches two faces at once: they take what wider steps and a larger
-tool leave in the corners.</source>
+tool leave in the corners.
+chamfer: Chamfers the sharp edges between the level ones of the selected faces and the walls that go down from them, with the cone of a tool:
+the chamfer has its angle. The model has the edges sharp. What the tool cannot reach without entering what is beside it is left, and
+listed. All directions but conventional are climb.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2348,6 +2384,11 @@ As JSON
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>The edges by their names, as FreeCAD shows them: ["Edge3", "Edge7"]; all edges of the selected level faces when left out.
+0 or empty: not stated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>The engagement angle that the path keeps to, degrees: of the arc along which the tool's rim is in the material.
 Range: 10 to 90 deg</source>
         <translation type="unfinished"></translation>
@@ -2488,6 +2529,10 @@ Range: above 0 to 50 mm
     </message>
     <message>
         <source>Tip flat</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tip offset</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2716,6 +2761,15 @@ stock: All that the tool reaches, around the part too: roughing.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Width</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Width of the chamfer, mm, measured level; some tenths deburr.
+Range: 0.01 to 100 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Without a corner, along a loop of `turn_radius` beyond the ends of the rows; where none fits, straight.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2809,6 +2863,10 @@ stock: All that the tool reaches, around the part too: roughing.</source>
     </message>
     <message>
         <source>by-level</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>chamfer</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
