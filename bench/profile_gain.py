@@ -1,8 +1,9 @@
 """What a profile that fits gains: passes, length and time on a steep and on a gentle plane, at equal scallop.
 
 Run: ``python bench/profile_gain.py``; ``docs/performance.md`` is written again. Tools of one diameter finish a plane of
-20 x 40 mm: levels on one of 80 degrees, rows on one of 10 degrees. The scallop is measured in numpy from the lines of the posted text and
-the tool's profile in section, with nothing that planned it: what stands over the plane, along its normal, between the passes.
+20 x 40 mm: levels on one of 80 degrees, rows on one of 10 degrees. The scallop is measured in numpy from the lines of the
+posted text and the tool's profile in section, with nothing that planned it: what stands over the plane, along its normal,
+between the passes.
 """
 
 from __future__ import annotations
