@@ -296,6 +296,7 @@ def roughing(part: Part, bound: float, **more: Any) -> Program:
     step = height / math.ceil(height / part.diameter)
     common = {"radial_stock_to_leave": LEFT, "axial_stock_to_leave": LEFT, "tolerance": 0.05, "entry_angle_deg": 5.0}
     operation = {"kind": "pocket", "clears": "stock", "engagement_deg": bound, "step": {"height": round(step, 4)}}
+    operation["link_feed"] = RAPID
     return posted(part, "flat", common | operation | {"z_bottom": round(float(part.box[0, 2]), 4)} | more)
 
 

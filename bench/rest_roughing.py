@@ -33,6 +33,9 @@ LEFT, SIDES = 0.3, 2.0
 NOTHING = "nothing-reached"
 """Code of the refusal where the larger tool leaves nothing that is worth a second one."""
 
+LINKS = 3000.0
+"""Feed of links, mm/min: the machine's rapid rate."""
+
 MOST_AIR = 0.1
 """Share of its length at cutting feeds that rest roughing may spend in air."""
 
@@ -81,6 +84,7 @@ def job(path: Path, units: str | None, diameter: float, bound: float) -> sc.Job:
         "radial_stock_to_leave": LEFT,
         "axial_stock_to_leave": LEFT,
         "tolerance": 0.05,
+        "link_feed": LINKS,
         "spindle": {"mode": "fixed", "rpm": 8000.0},
     }
     tools = {

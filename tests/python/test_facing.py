@@ -9,6 +9,7 @@ import numpy as np
 import styluscam as sc
 
 TOP, STOCK, TOLERANCE = 10.0, 3.0, 0.005
+RAPID = 0
 
 
 def job() -> sc.Job:
@@ -31,7 +32,8 @@ def test_the_top_of_a_stock_is_faced_level_by_level() -> None:
     asked = job()
     text = sc.post(sc.plan(asked), asked.machine()).text
     assert sc.verify(text, asked).ok
-    heights = sorted({float(z) for z in re.findall(r"^[^(\n]*Z(-?[\d.]+)", text, re.MULTILINE)})
+    moves = sc.read_gcode(text, asked.machine()).moves
+    heights = sorted({round(float(z), 4) for z in moves["end"][moves["kind"] != RAPID, 2]})
     assert heights[1:3] == [TOP + 1.0, TOP + 2.0] and TOP <= heights[0] <= TOP + TOLERANCE
     # without the last level a millimetre stands
     raised = re.sub(rf"\bZ{heights[0]:g}\b", f"Z{heights[1]:g}", text)

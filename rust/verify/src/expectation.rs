@@ -127,7 +127,7 @@ pub struct Clearing {
     pub entry_slope: f64,
     /// Their highest feed where one is stated, mm/min; else they are no faster than the faster of passes and plunges.
     pub entry_feed: Option<f64>,
-    /// The highest feed of what cuts nothing, mm/min; infinite where none is stated.
+    /// The highest feed of what cuts nothing, mm/min; 0 where it is that of what cuts.
     pub link_feed: f64,
     /// Height of the stock, mm.
     pub top: f64,

@@ -104,8 +104,8 @@ pub struct Pocket {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
     pub entry_feed: Option<f64>,
-    /// Feed of links at depth, through what is cleared, mm/min; max_feed when left out, or without it the machine's rapid rate, within its
-    /// highest feed.
+    /// Feed of links at depth, through what is cleared, mm/min, within the machine's highest; max_feed when left out, or without it the feed of
+    /// the passes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "mm/min", "minimum" = 0.1, "maximum" = 100000.0))]
     pub link_feed: Option<f64>,
@@ -192,8 +192,7 @@ impl Pocket {
     fn feed_of_links(&self, context: &Context<'_>) -> f64 {
         let (common, limits) = (context.common, &context.machine.limits);
         let most = limits.max_feed.unwrap_or(f64::INFINITY);
-        let fast = || self.max_feed.unwrap_or_else(|| limits.rapid_rate.max(common.feeds.cut));
-        self.link_feed.unwrap_or_else(fast).min(most)
+        self.link_feed.or(self.max_feed).unwrap_or(common.feeds.cut).min(most)
     }
 
     fn entry_slope(&self) -> f64 {
@@ -321,7 +320,7 @@ impl OperationKind for Pocket {
             smoothing: self.smoothing(given.body.max_radius()),
             entry_slope: self.entry_slope(),
             entry_feed: self.entry_feed,
-            link_feed: self.link_feed.or(self.max_feed).unwrap_or(f64::INFINITY),
+            link_feed: self.link_feed.or(self.max_feed).unwrap_or(0.0),
             top: given.top,
             pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
             left,

@@ -143,8 +143,8 @@ Range: 0.1 to 100000 mm/min
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Feed of links at depth, through what is cleared, mm/min; max_feed when left out, or without it the machine's rapid rate, within its
-highest feed.
+        <source>Feed of links at depth, through what is cleared, mm/min, within the machine's highest; max_feed when left out, or without it the feed of
+the passes.
 Range: 0.1 to 100000 mm/min
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -1268,8 +1268,8 @@ Range: 0.1 to 100000 mm/min
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Feed of links at depth, through what is cleared, mm/min; max_feed when left out, or without it the machine's rapid rate, within its
-highest feed.
+        <source>Feed of links at depth, through what is cleared, mm/min, within the machine's highest; max_feed when left out, or without it the feed of
+the passes.
 Range: 0.1 to 100000 mm/min
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
