@@ -19,7 +19,8 @@ use crate::tolerances::{SAME_LEVEL, SLACK};
 const ALLOWED: f64 = 0.5 * PI / 180.0;
 /// An angle from which on a move cuts, rad: of a disc that grazes stock within a hundredth of its radius.
 const CUTS: f64 = 0.14;
-/// The same of a move under a layer, whose walls need not be that exactly below each other, and of one with the feed of links: of a disc that grazes stock within a fiftieth.
+/// The same of a move under a layer, whose walls need not be that exactly below each other, and of one with the feed of links: of a disc that
+/// grazes stock within a fiftieth.
 const GRAZES: f64 = 0.4;
 /// By how much the rate at which stock is removed may be larger than it may, as a share: feeds and positions are rounded.
 const ROUNDED: f64 = 0.01;

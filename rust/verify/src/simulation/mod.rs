@@ -61,9 +61,14 @@ pub fn simulate(
     }
     if let Some(earlier) = subject.before {
         let cut = level.cut(&earlier.stretches, &earlier.tools)?;
-        before = Some(before.map_or(cut.clone(), |before| lower(before, &cut)));
+        before = Some(match before {
+            Some(before) => lower(before, &cut),
+            None => cut,
+        });
     }
-    let heights = before.as_ref().map_or(heights.clone(), |before| lower(heights, before));
+    if let Some(before) = &before {
+        heights = lower(heights, before);
+    }
     Ok(Simulation { grid, heights, top, before })
 }
 
