@@ -5,8 +5,9 @@ Parts are the first ten by name of the STEP solids of ``fixtures/corpus/slice`` 
 operations give a path. Both programs cut the same box with the same tools, feeds, rapids and heights.
 
 Roughing: FreeCAD's Adaptive, model aware, as FreeCAD makes it, one operation for each of the levels of ours, so that both
-clear the same layers; ours is ``pocket`` with ``clears = "stock"`` and, as its bound, the angle that 99 % of the length of
-Adaptive's cuts stay below. Finishing: of each program the fastest operation with which 99 % of what the ball can touch, and
+clear the same layers; ours is ``pocket`` with ``clears = "stock"`` and, as its bound, the largest angle of Adaptive's cuts,
+but no more than a right angle. Beside it: in one direction, with feeds that rise, and with the angle that 99 % of the length
+of Adaptive's cuts stay below. Finishing: of each program the fastest operation with which 99 % of what the ball can touch, and
 does not stand upright, is left with 1.1 times the scallop asked for, or less. Of FreeCAD 3D Surface and Waterline are tried,
 with smaller steps until they hold.
 
@@ -68,6 +69,9 @@ TOLERANCE = 0.005
 
 DEVIATION = 0.001
 """Of the triangles that ours reads, mm."""
+
+LOWEST, HIGHEST = 10.0, 90.0
+"""Of the bound, deg: past a right angle nothing is proven."""
 
 INTERVAL = 0.25
 """FreeCAD's sample interval in finishing, mm: with its own, 1 mm, gouges are many times as deep."""
@@ -421,7 +425,7 @@ class Compared:
     part: Part
     rough: tuple[Program, Program]
     others: tuple[Program, ...]
-    """Ours: climb milling only; the same with Adaptive's largest angle as its bound; with feeds that rise."""
+    """Ours: with the angle of 99 % of Adaptive's length as its bound; climb milling only; with feeds that rise."""
     finish: tuple[Program, Program]
 
     @property
@@ -472,7 +476,7 @@ HEADS = (
     "FreeCAD min",
     "ratio",
     "roughing",
-    "ours climb / climb at the largest / `max_feed`",
+    "ours at the 99 % angle / climb / `max_feed`",
     "finishing",
     "engagement 99 % deg",
     "largest",
@@ -490,13 +494,12 @@ def compared(part: Part) -> Compared:
         NoPathError, FailureError: one of them has none.
     """
     native = adaptive(part, roughing(part, 60.0))
-    bound = round(min(max(native.angles[0], 10.0), 90.0), 1)
-    ours = roughing(part, bound)
-    largest = round(min(max(native.angles[1], 10.0), 90.0), 1)
+    within, largest = (round(min(max(angle, LOWEST), HIGHEST), 1) for angle in native.angles)
+    ours = roughing(part, largest)
     others = (
-        roughing(part, bound, direction="climb"),
+        roughing(part, within),
         roughing(part, largest, direction="climb"),
-        roughing(part, bound, max_feed=RAPID),
+        roughing(part, largest, max_feed=RAPID),
     )
     mine = finishing(part)
     if not mine:

@@ -101,14 +101,14 @@ def test_feeds_and_spindle_are_for_the_material_with_the_source_beside_them(part
     assert document["process"]["material"] == "steel"
     tool = document["tools"]["cutter"]
     assert (tool["profile"], tool["flutes"], tool["cutter_material"]) == (
-        {"kind": "flat", "diameter": 10.0, "tip_flat": 0.0}, 2, "carbide"
+        {"kind": "flat", "diameter": 8.0, "tip_flat": 0.0}, 2, "carbide"
     )  # fmt: skip
-    # 230 m/min and 0.08 mm per tooth: 7321 rev/min and 1171 mm/min, rounded down
+    # no wider than the tool of the roughing; 230 m/min and 0.06 mm per tooth: 9151 rev/min and 1098 mm/min, rounded down
     operation = of(job, "walls")
     assert (operation["spindle"]["rpm"], operation["feeds"]["cut"], operation["feeds"]["plunge"]) == (
-        7300.0,
-        1160.0,
-        580.0,
+        9100.0,
+        1090.0,
+        540.0,
     )
     text = job.read_text().replace("\n#  ", "")
     assert re.search(r'# - source: .*atagroup.*"Unalloyed steel < 500 N/mm2"\nfeeds = ', text)
@@ -130,7 +130,10 @@ def test_a_table_of_one_s_own_is_named_in_the_job(parts, cli):
         "kind": "milling", "material": "our brass", "cutting_data": "shop.toml", "max_unreached": 0.1
     }  # fmt: skip
     operation = of(job, "walls")
-    assert (operation["spindle"]["rpm"], operation["feeds"]["cut"]) == (60.0, 6.0)
+    assert (operation["spindle"]["rpm"], operation["feeds"]["cut"]) == (
+        60.0,
+        4.0,
+    )  # of 4.8: two teeth of 0.04 mm at 8 mm
     assert "# - source: the shop's table" in job.read_text()
     # the table states nothing for roughing: it is left out, and why
     assert [operation["kind"] for operation in document["operations"]] == ["z-level", "zig-zag"]

@@ -19,16 +19,10 @@ OPTIONS = argparse.Namespace(limit=60.0, patience=3.0, keep=None, variant=[], ba
 LONG = {"blend-02", "channel-01", "cup-02", "gearbox-00.as-made.ply-binary-mm", "hinge-02", "pins-03", "spline-05"}
 """Parts whose roughing takes the better part of a minute to plan and to verify."""
 
-KNOWN = {"boxes-01": "10.5 % of the faces count as not reached where roughing goes before, and 10 % pass"}
-"""Parts that fail, and why."""
 
-
-def marks(name: str) -> list[pytest.MarkDecorator]:
-    long = [pytest.mark.long] if name in LONG else []
-    return long + ([pytest.mark.xfail(reason=KNOWN[name])] if name in KNOWN else [])
-
-
-@pytest.mark.parametrize("name", [pytest.param(name, marks=marks(name)) for name in PARTS])
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] if name in LONG else []) for name in PARTS]
+)
 def test_a_part_becomes_a_program_or_one_true_sentence(name, tmp_path):
     (row,) = run_part(PARTS[name], SLICE, tmp_path, OPTIONS)
     assert row.wrong == "", f"{row.outcome}: {row.detail} {row.kinds}"

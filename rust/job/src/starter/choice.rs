@@ -185,7 +185,7 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
     let body = turned.body();
     let looks = body.hollows();
     let allowances = Allowances::of(&turned.mesh);
-    let mut works = Vec::new();
+    let mut works: Vec<Work> = Vec::new();
     let drilled = drilling(&body);
     let done: Vec<u32> = drilled.iter().flat_map(|holes| holes.faces.iter().copied()).collect();
     let open: Vec<u32> = workable(&looks).map(|face| face.face).filter(|face| !done.contains(face)).collect();
@@ -194,8 +194,9 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
         Ok(work) => works.push(work),
         Err(why) => reasons.push(why),
     }
+    let rougher = works.first().map(|work| work.cutter);
     works.extend(drilled.into_iter().map(|holes| holes.work));
-    let milled = operations::milling(&body, &looks, &done);
+    let milled = operations::milling(&body, &looks, &done, rougher.as_ref());
     reasons.extend(milled.reasons);
     works.extend(milled.works);
     let named = |face: &FaceLook| face.looks_down && works.iter().any(|work| work.names(face.face));

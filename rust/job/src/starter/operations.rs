@@ -104,13 +104,19 @@ fn work(
     }
 }
 
-/// Rows, levels, or both, with a tool that gets to the faces that are not `done` before.
-pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32]) -> Milled {
+/// Rows, levels, or both, with a tool that gets to the faces that are not `done` before. A flat one is no wider than the
+/// `rougher`: in corners it would meet what a narrower one has not cleared.
+pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32], rougher: Option<&Cutter>) -> Milled {
     let seen: Vec<&FaceLook> = workable(looks).filter(|face| !done.contains(&face.face)).collect();
     let is_prismatic = seen.iter().all(|face| face.flat >= PRISMATIC || face.vertical >= PRISMATIC);
     let shape = if is_prismatic { Shape::Flat } else { Shape::Ball };
     let drilled = |face: &&FaceLook| face.hole.is_some();
-    let (fitting, words) = sizes::cutter(body.mesh(), seen.iter().copied().filter(|face| !drilled(face)), shape);
+    let (mut fitting, mut words) =
+        sizes::cutter(body.mesh(), seen.iter().copied().filter(|face| !drilled(face)), shape);
+    if let Some(rougher) = rougher.filter(|rougher| is_prismatic && rougher.diameter < fitting.diameter) {
+        fitting.diameter = rougher.diameter;
+        words = format!("the tool, {} mm wide: no wider than that of the roughing", rougher.diameter);
+    }
     let by_face = ByFace::of(body);
     let allowed = ProcessKeys::default().max_unreached;
     let mut milled = worked(&by_face, &seen, fitting, words);
