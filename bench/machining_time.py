@@ -288,6 +288,8 @@ def framed(ours: str, moves: str) -> str:
 def posted(part: Part, shape: str, operation: dict[str, Any]) -> Program:
     """Ours."""
     job, what = part.job(shape, operation), operation["kind"]
+    if what == "zig-zag" and "scallop" not in operation:
+        what = "even zig-zag"
     try:
         return Program(what, sc.post(sc.plan(job), MACHINE).text, job)
     except StylusError as error:
@@ -346,6 +348,7 @@ def finishing(part: Part) -> list[Program]:
     for operation in (
         {"kind": "constant-scallop", "scallop": SCALLOP},
         {"kind": "zig-zag", "stepover": round(chord, 4), "scallop": SCALLOP},
+        {"kind": "zig-zag", "stepover": round(chord, 4)},
         {"kind": "z-level", "step": {"scallop": SCALLOP}},
     ):
         try:

@@ -10,10 +10,10 @@ from .conftest import CHECKOUT
 
 COPIES = CHECKOUT / "target" / "howto"
 """Where copies are, one for each page: what did not change since the last run need not be checked again."""
-TARGET = COPIES / "target"
-"""Where cargo builds all copies: what the engine depends on is compiled once."""
-SOON = ("--config", 'profile.dev.package."*".opt-level=0')
-"""For what is to be built soon and not to run fast; one profile, since each has its own builds of the dependencies."""
+TARGET = CHECKOUT / "target"
+"""Where cargo builds all copies: what the engine depends on is compiled there for its own tests."""
+UNOPTIMISED = "[profile.dev]\nopt-level = 1", "[profile.dev]\nopt-level = 0"
+"""A copy is to be built soon and not to run fast; what it depends on stays as it is, and is built already."""
 
 
 def patched(text: str, diff: str) -> str:
@@ -53,7 +53,8 @@ class Change:
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(CHECKOUT / "rust", folder / self.name)
         manifest = (CHECKOUT / "Cargo.toml").read_text(encoding="utf-8")
-        (folder / "Cargo.toml").write_text(manifest.replace('"rust/', f'"{self.name}/'), encoding="utf-8")
+        manifest = manifest.replace('"rust/', f'"{self.name}/').replace(UNOPTIMISED[0], UNOPTIMISED[1])
+        (folder / "Cargo.toml").write_text(manifest, encoding="utf-8")
         shutil.copy2(CHECKOUT / "Cargo.lock", folder)
         for file, text in self.files.items():
             (folder / self.name / file.removeprefix("rust/")).write_text(text, encoding="utf-8")

@@ -21,7 +21,7 @@ else:
     import tomli as tomllib
 
 from .conftest import CHECKOUT, FIXTURES, run_cli
-from .patching import SOON, Change, patched, run_cargo
+from .patching import Change, patched, run_cargo
 
 HOWTO = tuple(f"docs/howto/{page.name}" for page in sorted((CHECKOUT / "docs" / "howto").glob("add-*.md")))
 PAGES = ("README.md", "docs/guide.md", "docs/posts.md", "docs/profiles.md", *HOWTO)
@@ -165,7 +165,7 @@ def change_of(page: str) -> Change:
 @pytest.mark.parametrize("page", HOWTO)
 def test_what_a_page_adds_compiles(page: str) -> None:
     if (change := change_of(page)).files:
-        change.cargo("check", *SOON)
+        change.cargo("check")
 
 
 @pytest.mark.long
@@ -182,9 +182,9 @@ def test_copies_are_not_taken_for_one_another() -> None:
     text = (CHECKOUT / file).read_text(encoding="utf-8")
     sound.files, broken.files = {file: text}, {file: text + "fn broken( {\n"}
     folders = [change.copy() for change in (sound, broken)]
-    run_cargo(folders[0], "check", *SOON, "--package", "styluscam-motion")
+    run_cargo(folders[0], "check", "--package", "styluscam-motion")
     with pytest.raises(AssertionError, match="fn broken"):
-        run_cargo(folders[1], "check", *SOON, "--package", "styluscam-motion")
+        run_cargo(folders[1], "check", "--package", "styluscam-motion")
 
 
 def test_a_change_that_fits_nowhere_is_found() -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from .conftest import CHECKOUT
-from .patching import SOON, TARGET
+from .patching import TARGET
 from .test_docs import change_of
 
 PAGE = "docs/howto/add-an-operation.md"
@@ -75,7 +75,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert sorted(process.files) == ["rust/job/src/process/mod.rs", "rust/job/src/process/relay.rs"]
     change.files |= process.files
     change.name = "new-kind"  # the page's own test may run beside this one
-    change.cargo("build", *SOON, crate="bindings")
+    change.cargo("build", crate="bindings")
     package = tmp_path_factory.mktemp("new-kind")
     shutil.copytree(
         CHECKOUT / "python" / "styluscam", package / "styluscam", ignore=shutil.ignore_patterns("*.so", "__pycache__")

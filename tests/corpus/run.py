@@ -80,7 +80,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--base", action="store_true", help="no variants: what `new` wrote alone")
     parser.add_argument("--variant", action="append", default=[], help="these variants alone: z-level.ball, as-written")
     parser.add_argument("--keep", type=Path, help="a folder in which jobs and programs stay")
-    parser.add_argument("--out", type=Path, default=Path("corpus-table"))
+    parser.add_argument("--out", type=Path, default=Path("target/corpus"))
     parser.add_argument("--verbose", action="store_true")
     return parser.parse_args()
 

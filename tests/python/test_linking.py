@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -404,3 +405,30 @@ def test_rows_around_holes_are_done_area_by_area() -> None:
     assert by_nearest and facts(plan)["between_passes"].value < 0.3 * float(by_nearest[1])
     (text,) = sc.post(plan).files.values()
     assert findings(text, asked) == []
+
+
+def test_rows_are_linked_across_a_hole_at_a_feed_where_the_part_stands_no_higher(tmp_path: Path) -> None:
+    import trimesh
+
+    plate = trimesh.creation.annulus(4.0, 20.0, 5.0)  # its top at Z2.5
+    pillar = trimesh.creation.cylinder(1.5, 20.0)  # up to Z10
+    for body, crossed in ((plate, True), (trimesh.util.concatenate([plate, pillar]), False)):
+        body.export(tmp_path / "part.stl")
+        asked = sc.Job.from_dict(
+            {
+                "schema": 1,
+                "part": {"file": str(tmp_path / "part.stl"), "units": "mm", "faces": "all", "tolerance": 0.001},
+                "process": {"kind": "milling", "max_unreached": 1.0},
+                "setup": {"zero": "model", "clearance": 5.0, "stock": {"kind": "box", "sides": 1.0}},
+                "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
+                "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 1.0, "links": "low", "z_bottom": 2.4}],
+                "machine": {"name": "linuxcnc"},
+            }
+        )
+        text = sc.post(sc.plan(asked), "linuxcnc").text
+        moves = sc.read_gcode(text, "linuxcnc").moves
+        links = moves[moves["role"] == ROLES.index("link")]
+        assert (len(links) >= 6) == crossed, len(links)
+        # no higher than the proof that nothing stands there asks for
+        assert all(2.4 <= z < 2.6 for z in links["end"][:, 2]), links["end"][:, 2]
+        assert not [one for one in sc.verify(text, asked).to_dict()["findings"] if one["severity"] == "error"]

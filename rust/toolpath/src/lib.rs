@@ -42,6 +42,6 @@ pub use planes::Planes;
 pub use region::{Boundary, Inside, Region, GRAZES};
 pub use seam::Seam;
 pub use segment::{Curve, Pace, Segment};
-pub use standing::{Low, Standing};
+pub use standing::{Across, Low, Standing};
 pub use surface::Surface;
 pub use tabs::{lifted, tabs, Tab, TabError, TabNumber, TabRule};

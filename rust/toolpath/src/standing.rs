@@ -6,6 +6,7 @@
 //! that loop, since sheet inside hangs from what the loop has pressed down. Derived in docs/concepts/linking.md.
 
 use styluscam_geometry::Vector;
+use styluscam_motion::Role;
 
 use crate::offset::Keeping;
 use crate::{Entered, Followed, Heights, Lead, LinkRules, PathPoint, Segment, Surface};
@@ -69,6 +70,19 @@ impl<'a> Standing<'a> {
     /// The part with its sheet, and the check faces.
     pub(crate) fn surface(&self) -> &'a Surface<'a> {
         self.surface
+    }
+
+    /// The straight way at a feed from one tip to another, over the part and the check faces alone: up, across and down. None where
+    /// more than the distance in plan would be in height, or nothing is proven to be under it.
+    fn across(&self, [from, to]: [Vector; 2], feed: f64) -> Option<Vec<Segment>> {
+        let distance = (to - from).xy().norm();
+        let height = self.part([from, to], from.z.min(to.z) + distance);
+        if height >= from.z.min(to.z) + distance {
+            return None;
+        }
+        let at = |end: Vector| Vector::new(end.x, end.y, height);
+        let link = |end| Segment { role: Some(Role::Link), ..Segment::line(end, feed) };
+        Some([at(from), at(to), to].map(link).into())
     }
 
     /// A height under which no tip has to be over the line: proven, or `ceiling`.
@@ -170,11 +184,25 @@ pub struct Low<'a, R> {
     pub standing: &'a Standing<'a>,
     /// Air that rapids keep above that, mm.
     pub margin: f64,
+    /// Short links that go straight over the part at a feed; none where passes have to be left by rapids.
+    pub across: Option<Across>,
+}
+
+/// Links over what passes leave out, such as a hole between the ends of two rows: straight, at a feed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Across {
+    /// Longest distance in plan, mm.
+    pub longest: f64,
+    /// mm/min.
+    pub feed: f64,
 }
 
 impl<R: LinkRules<PathPoint>> LinkRules<PathPoint> for Low<'_, R> {
     fn path(&self, from: &PathPoint, to: &PathPoint) -> Option<Vec<Segment>> {
-        self.rules.path(from, to)
+        let is_short = |across: &Across| (to.tip - from.tip).xy().norm() <= across.longest;
+        let across =
+            || self.across.filter(is_short).and_then(|across| self.standing.across([from.tip, to.tip], across.feed));
+        self.rules.path(from, to).or_else(across)
     }
 
     fn heights(&self, number: usize, from: Option<Vector>, to: Vector, ceiling: Heights) -> Heights {

@@ -76,6 +76,10 @@ impl FollowsSurface for ConstantScallop {
         Freedom::OfAreas { reach: NEIGHBOURS * self.pitch(task.body), inside_first: false }
     }
 
+    fn links_across(&self) -> bool {
+        true
+    }
+
     fn pitch(&self, body: &ToolBody) -> f64 {
         body.chord(0.0, self.scallop).min(body.max_radius())
     }

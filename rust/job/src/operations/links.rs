@@ -3,7 +3,7 @@
 use styluscam_motion::{Arc, Cancelled, Move, MoveKind, Role};
 use styluscam_post::machine::{CommentForm, Rapids};
 use styluscam_toolpath::{
-    AlongSurface, Entered, LeadRule, LeadShape, Leading, LinkRules, Links, Low, PathPoint, Seam, Standing,
+    Across, AlongSurface, Entered, LeadRule, LeadShape, Leading, LinkRules, Links, Low, PathPoint, Seam, Standing,
 };
 
 use super::facts::counted;
@@ -12,25 +12,40 @@ use super::{fit, Context, Fact, LeadForm, LinkHeight};
 /// Heights that differ by less are one, mm.
 const SAME: f64 = 1e-9;
 
-/// The moves along passes on a surface, which arcs leave by at most a deviation, mm, and what there is to say of them.
+/// What links go over, and how.
+struct Over<'a> {
+    standing: &'a Standing<'a>,
+    across: Option<Across>,
+    links: &'a Links,
+}
+
+/// The moves along passes on a surface, which arcs leave by at most a deviation, mm, and what there is to say of them. Where links
+/// may go `across`, the longest that `along` has go straight over what the passes leave out.
 ///
 /// # Errors
 /// `Cancelled`.
 pub fn linked(
     context: &Context<'_>,
     (mut passes, seam, deviation): (Vec<Entered>, Seam, f64),
-    along: AlongSurface<'_>,
+    (along, across): (AlongSurface<'_>, bool),
     links: &Links,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {
     let Context { machine, common, reference_height, scene, .. } = *context;
     // inside a loop sheet hangs no higher than that; stock stays until it is cut
     let is_sheet = scene.sheet.is_some();
     let standing = Standing::new(along.surface, scene.top, (&passes, is_sheet), deviation);
+    // a remark states that they are links, so that what lies under them is no missing pass
+    let may_cross = across && !is_sheet && machine.comment.form != CommentForm::None;
+    let over = Over {
+        standing: &standing,
+        across: may_cross.then_some(Across { longest: along.longest, feed: along.feed }),
+        links,
+    };
     let Some(shape) = shape(common.lead) else {
-        return with_heights(context, (passes, deviation), along, (&standing, links));
+        return with_heights(context, (passes, deviation), along, &over);
     };
     if machine.comment.form == CommentForm::None {
-        let (moves, mut facts) = with_heights(context, (passes, deviation), along, (&standing, links))?;
+        let (moves, mut facts) = with_heights(context, (passes, deviation), along, &over)?;
         facts.push(no_leads(&machine.name));
         return Ok((moves, facts));
     }
@@ -49,7 +64,7 @@ pub fn linked(
         Seam::Nearest => leading.begin_where_they_fit(&mut passes, context.watch)?,
         Seam::Bearing { .. } => 0,
     };
-    let (moves, mut facts) = with_heights(context, (passes, deviation), leading, (&standing, links))?;
+    let (moves, mut facts) = with_heights(context, (passes, deviation), leading, &over)?;
     facts.push(leads(&moves, moved, seam));
     Ok((moves, facts))
 }
@@ -84,7 +99,7 @@ fn with_heights(
     context: &Context<'_>,
     passes: (Vec<Entered>, f64),
     rules: impl LinkRules<PathPoint>,
-    (standing, links): (&Standing<'_>, &Links),
+    &Over { standing, across, links }: &Over<'_>,
 ) -> Result<(Vec<Move>, Vec<Fact>), Cancelled> {
     let Context { machine, common, .. } = *context;
     match common.links {
@@ -95,7 +110,7 @@ fn with_heights(
             Ok((moves, facts))
         }
         LinkHeight::Low => {
-            let low = Low { rules, standing, margin: common.link_margin };
+            let low = Low { rules, standing, margin: common.link_margin, across };
             let (moves, mut facts) = fit::linked(context, passes, &low, links)?;
             facts.extend(travelled(&moves, links.heights.clearance));
             Ok((moves, facts))

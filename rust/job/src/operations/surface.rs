@@ -81,6 +81,11 @@ pub trait FollowsSurface: OperationKind + Sync {
         None
     }
 
+    /// Whether short links may go straight over what its passes leave out: its neighbours have cleared what they meet.
+    fn links_across(&self) -> bool {
+        false
+    }
+
     /// Its passes.
     ///
     /// # Errors
@@ -322,7 +327,8 @@ fn linked(
         between = [0, 1].map(|i| between[i] + followed.between[i]);
     }
     let mut facts = turns.map_or_else(Vec::new, turn_facts);
-    let (moves, linked) = links::linked(context, (entered, kind.seam(), deviation), along, &task.links())?;
+    let (moves, linked) =
+        links::linked(context, (entered, kind.seam(), deviation), (along, kind.links_across()), &task.links())?;
     facts.extend(order_fact(between).into_iter().chain(linked));
     facts.extend(tabs.as_ref().map(|tabs| tabs.fact()));
     let moves = match &tabs {

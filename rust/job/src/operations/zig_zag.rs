@@ -296,6 +296,10 @@ impl FollowsSurface for ZigZag {
         }
     }
 
+    fn links_across(&self) -> bool {
+        true
+    }
+
     fn turn(&self) -> Option<Turn> {
         match self.turns {
             Turns::Straight => None,
