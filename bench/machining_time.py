@@ -155,7 +155,7 @@ class Part:
             {
                 "schema": 1,
                 "part": {"file": str(self.file), "faces": "all", "tolerance": DEVIATION},
-                "process": {"kind": "milling"},
+                "process": {"kind": "milling", "max_unreached": 1.0},  # what the tool is too wide for, both leave
                 "setup": {"zero": "model", "clearance": CLEARANCE, "retract": RETRACT, "stock": stock},
                 "tools": {"a": {"number": 1, "profile": {"kind": shape, "diameter": self.diameter}}},
                 "operations": [common | operation],
@@ -290,6 +290,8 @@ def posted(part: Part, shape: str, operation: dict[str, Any]) -> Program:
     job, what = part.job(shape, operation), operation["kind"]
     if what == "zig-zag" and "scallop" not in operation:
         what = "even zig-zag"
+    if "z_bottom" in operation and what == "constant-scallop":
+        what += " beyond the edges"
     try:
         return Program(what, sc.post(sc.plan(job), MACHINE).text, job)
     except StylusError as error:
@@ -344,9 +346,11 @@ def finishing(part: Part) -> list[Program]:
     """Ours that give a path."""
     chord = 2.0 * math.sqrt(part.diameter * SCALLOP - SCALLOP * SCALLOP)
     common = {"tolerance": TOLERANCE, "links": "low"}
+    beyond = round(float(part.box[0, 2]) - 0.5 * part.diameter, 4)
     found = []
     for operation in (
         {"kind": "constant-scallop", "scallop": SCALLOP},
+        {"kind": "constant-scallop", "scallop": SCALLOP, "z_bottom": beyond},
         {"kind": "zig-zag", "stepover": round(chord, 4), "scallop": SCALLOP},
         {"kind": "zig-zag", "stepover": round(chord, 4)},
         {"kind": "z-level", "step": {"scallop": SCALLOP}},

@@ -12,11 +12,15 @@ use crate::body::Body;
 use crate::expectation::Clearing;
 use crate::findings::{Finding, FindingKind, Severity};
 use crate::subject::{Limits, Subject};
-use crate::tolerances::{ROUGH, SAME_LEVEL, SLACK, WIDE};
+use crate::tolerances::{ROUGH, SAME_LEVEL, WIDE};
 
 /// Of smaller floors, in squares of the tool's radius, only those are to have a level over which the tool's axis gets: among the triangles
 /// of curved faces some are level.
 const SMALL: f64 = 0.5;
+
+/// Floors are level up to a slope of 1e-4, in the cosine of their normal: where curved faces turn over, triangles that slope by more lie
+/// as well, and no level is theirs.
+const LEVEL: f64 = 5e-9;
 
 /// A level that is missing.
 struct Missing {
@@ -116,7 +120,7 @@ fn over_floors(work: &Work<'_>, subject: &Subject) -> Vec<Missing> {
         .expectation
         .triangles()
         .into_iter()
-        .filter(|triangle| subject.mesh.normal(*triangle).z > 1.0 - SLACK)
+        .filter(|triangle| subject.mesh.normal(*triangle).z >= 1.0 - LEVEL)
         .filter(|triangle| height(*triangle) < clearing.top - ROUGH && (lowest..=highest).contains(&height(*triangle)))
         .collect();
     level.sort_by(|a, b| height(*a).total_cmp(&height(*b)));
