@@ -15,6 +15,8 @@ const UPRIGHT: f64 = 1e-3;
 const SAME_FOOT: f64 = 1e-3;
 /// The share of an edge's length that its triangles' sides show at least.
 const WHOLE: f64 = 0.98;
+/// Edges that are named in a message at most.
+const MOST_NAMES: usize = 6;
 
 /// A straight piece of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,10 +57,9 @@ impl EdgeLine {
                 names.push(&piece.name);
             }
         }
-        match names.as_slice() {
-            [first, _, _, .., last] => format!("{first} to {last}"),
-            few => few.join(", "),
-        }
+        let few = names.get(..MOST_NAMES).unwrap_or(&names);
+        let more = names.len() - few.len();
+        few.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
     }
 
     /// Where the walls beside it end below, mm; none where they end at several heights, or some piece has no upright wall.
@@ -106,7 +107,8 @@ pub(crate) fn lines_of_faces(scene: &Scene, faces: &[u32], wall_is_outside: Opti
     // the level face is on the left
     let is_outside = |line: &EdgeLine| line.clone().counterclockwise() == *line;
     let all = level_edges(scene, faces, None, UPRIGHT).into_iter().map(line);
-    let on_that_side = |line: &EdgeLine| wall_is_outside.is_none_or(|outside| line.closed && is_outside(line) == outside);
+    let on_that_side =
+        |line: &EdgeLine| wall_is_outside.is_none_or(|outside| line.closed && is_outside(line) == outside);
     all.filter(on_that_side).map(EdgeLine::counterclockwise).collect()
 }
 
@@ -140,7 +142,7 @@ pub(crate) fn lines_of_edges(
             return Err(JobError::document("no-edge", at(number), message, "name edges at which faces meet"));
         }
     }
-    joined(pieces, &named, (names, path))
+    joined(pieces, &named, path)
 }
 
 fn length([a, b]: [Vector; 2]) -> f64 {
@@ -232,11 +234,7 @@ impl Named {
 
 /// Pieces in the order in which they follow each other: open lines from the first named edge on, which alone runs as its curve does; closed ones
 /// counterclockwise.
-fn joined(
-    pieces: Vec<(usize, LinePiece)>,
-    named: &Named,
-    (names, path): (&[String], &str),
-) -> Result<Vec<EdgeLine>, JobError> {
+fn joined(pieces: Vec<(usize, LinePiece)>, named: &Named, path: &str) -> Result<Vec<EdgeLine>, JobError> {
     let mut meeting: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
     for (number, (_, piece)) in pieces.iter().enumerate() {
         for end in piece.ends {
@@ -277,7 +275,6 @@ fn joined(
     }
     // as they are named
     lines.sort_by_key(|(first, _)| *first);
-    debug_assert!(lines.len() <= names.len());
     Ok(lines.into_iter().map(|(_, line)| line).collect())
 }
 

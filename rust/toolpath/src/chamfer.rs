@@ -124,7 +124,7 @@ fn free_lines(
 }
 
 /// Drops corners at which a line goes on straight.
-fn straightened(points: &mut Vec<[f64; 2]>) {
+pub(crate) fn straightened(points: &mut Vec<[f64; 2]>) {
     let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
     for point in points.drain(..) {
         while let [.., a, b] = kept.as_slice() {

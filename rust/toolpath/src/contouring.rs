@@ -8,7 +8,7 @@
 
 use styluscam_geometry::Vector;
 
-use crate::chamfer::Stretch;
+use crate::chamfer::{straightened, Stretch};
 use crate::pocket::polygons::{sides, signed_area, Kernel, Point, Polygons};
 
 /// Shorter distances are none, mm.
@@ -194,7 +194,8 @@ pub fn descent(path: &Stretch, [from, to]: [f64; 2], slope: f64) -> Descent {
             route.extend(path.points.iter().take(path.points.len().saturating_sub(1)));
         }
         route.extend(first.iter());
-        let points = rest.into_iter().chain(first.into_iter().skip(1)).collect();
+        let mut points = rest.into_iter().chain(first.into_iter().skip(1)).collect();
+        straightened(&mut points);
         (route, Stretch { points, closed: true })
     } else {
         let trips = (0.5 * run / length.max(LEAST)).ceil().max(1.0);

@@ -156,9 +156,8 @@ impl Look<'_> {
     /// Paths of some of the moves.
     fn axes(&self, is_meant: impl Fn(&Own<'_>) -> bool) -> Axes {
         let meant = self.own.iter().enumerate().filter(|(_, own)| is_meant(own));
-        let chords = meant.flat_map(|(number, own)| {
-            own.chords().into_iter().map(move |chord| GeomWithData::new(chord, number))
-        });
+        let chords =
+            meant.flat_map(|(number, own)| own.chords().into_iter().map(move |chord| GeomWithData::new(chord, number)));
         RTree::bulk_load(chords.collect())
     }
 
@@ -166,7 +165,7 @@ impl Look<'_> {
     fn radius(&self, line: &ContourLine, tip: f64) -> f64 {
         match self.contouring.side {
             ContourSide::On => 0.0,
-            ContourSide::Left | ContourSide::Right => self.cutter.at_height((line.wall_top - tip).max(0.0)).0,
+            ContourSide::Left | ContourSide::Right => self.cutter.at_height((line.plane_top - tip).max(0.0)).0,
         }
     }
 
@@ -188,7 +187,8 @@ impl Look<'_> {
         (faults, unreached): (&mut Vec<Fault>, &mut BTreeMap<&'l str, (f64, Vector)>),
         watch: &Watch,
     ) -> Result<(), Cancelled> {
-        let pieces = RTree::bulk_load(line.pieces.iter().map(|piece| Line::new(piece.ends[0], piece.ends[1])).collect());
+        let pieces =
+            RTree::bulk_load(line.pieces.iter().map(|piece| Line::new(piece.ends[0], piece.ends[1])).collect());
         let mut shortest: BTreeMap<&'l str, (f64, Vector)> = BTreeMap::new();
         for level in &line.levels {
             let axes = self.axes(|own| own.is_on(level.tip));
@@ -224,10 +224,11 @@ impl Look<'_> {
     ) {
         let distance = self.radius(line, level.tip) + level.left;
         for (at, length) in positions(piece) {
-            let beyond = self.beyond(axes, (at, piece), distance);
+            let least = if line.is_finished(level) { -self.limits.gouge - SLACK } else { -ANOTHER };
+            let beyond = self.beyond(axes, (at, piece), (distance, least));
             let beyond = beyond.map(|(value, number)| (value + self.subject.deviation_outward, number));
             if beyond.is_some_and(|(value, _)| value <= self.excess + SLACK) {
-                worst.touched += 1;
+                worst.touched += 1; // what is too near is found by itself
                 continue;
             }
             let aside = self.aside(piece);
@@ -237,9 +238,8 @@ impl Look<'_> {
             if Tabs::excuse(&self.tabs, tip) {
                 continue;
             }
-            let is_near = pieces.nearest_neighbor(axis).is_some_and(|other| {
-                other.distance_2(&axis).sqrt() < distance - SLACK
-            });
+            let is_near =
+                pieces.nearest_neighbor(axis).is_some_and(|other| other.distance_2(&axis).sqrt() < distance - SLACK);
             if is_near || !self.is_free(tip) {
                 let known = missed.entry(piece.name.as_str()).or_insert((0.0, [at[0], at[1], level.tip].into()));
                 known.0 += length;
@@ -255,7 +255,9 @@ impl Look<'_> {
                     }
                 }
                 None if worst.missing.is_none() => {
-                    let fault = self.last.fault(&faults::CONTOUR_MISSING).measured(level.tip, level.tip);
+                    let above = self.own.iter().rev().find(|own| own.segment.lowest() > level.tip - SAME_LEVEL);
+                    let near = above.map_or(self.last, |own| own.segment);
+                    let fault = near.fault(&faults::CONTOUR_MISSING).measured(level.tip, level.tip);
                     worst.missing = Some(Fault { position, ..fault });
                 }
                 None => {}
@@ -264,18 +266,23 @@ impl Look<'_> {
     }
 
     /// By how much the pass nearest to where one should be is farther from a position of a piece than a distance, mm, and the number of its
-    /// move; none where there is none on the right side.
-    fn beyond(&self, axes: &Axes, (at, piece): ([f64; 2], &ContourPiece), distance: f64) -> Option<(f64, usize)> {
+    /// move; none where there is none on the right side. What is nearer by more than `least` (below 0) is another pass.
+    fn beyond(
+        &self,
+        axes: &Axes,
+        (at, piece): ([f64; 2], &ContourPiece),
+        (distance, least): (f64, f64),
+    ) -> Option<(f64, usize)> {
         let farthest = distance + ANOTHER;
         let aside = self.aside(piece);
-        let nearest = axes.locate_within_distance(at, farthest * farthest).filter_map(|chord| {
+        let near = axes.locate_within_distance(at, farthest * farthest).filter_map(|chord| {
             let axis = chord.geom().nearest_point(&at);
             let arm = [axis[0] - at[0], axis[1] - at[1]];
             let is_beside = self.contouring.side == ContourSide::On || arm[0] * aside[0] + arm[1] * aside[1] > 0.0;
             let beyond = libm::hypot(arm[0], arm[1]) - distance;
-            (is_beside && beyond >= -self.limits.gouge - SLACK).then_some((beyond, chord.data))
+            (is_beside && beyond >= least).then_some((beyond, chord.data))
         });
-        nearest.min_by(|a, b| a.0.total_cmp(&b.0))
+        near.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Whether a tool stays out of the part, and of what stands around it.
@@ -294,7 +301,7 @@ impl Look<'_> {
         if self.contouring.side == ContourSide::On {
             return None;
         }
-        let axes = self.axes(|own| own.is_feed() && own.segment.lowest() < line.wall_top.max(line.begins) - SLACK);
+        let axes = self.axes(|own| own.is_feed() && own.segment.lowest() < line.plane_top - SLACK);
         let left = |own: &Own<'_>| {
             let on = line.levels.iter().filter(|level| own.is_on(level.tip)).map(|level| level.left);
             on.reduce(f64::min).unwrap_or(0.0)
@@ -330,7 +337,8 @@ impl Look<'_> {
             let Segment { start, end, kind, .. } = *own.segment;
             let start = start.filter(|_| own.is_feed() && own.role != Some(Role::Lead))?;
             let fall = start[2].min(begins) - end[2];
-            let run = own.segment.bend.map_or_else(|| apart([start[0], start[1]], [end[0], end[1]]), |bend| bend.length());
+            let run =
+                own.segment.bend.map_or_else(|| apart([start[0], start[1]], [end[0], end[1]]), |bend| bend.length());
             let is_steep = fall - 2.0 * unit > most * (run + 2.0 * unit);
             let is_down = kind == SegmentKind::Plunge;
             if !is_steep || self.is_beside_stock(own) || (is_down && self.is_cleared(number, end)) {
@@ -357,6 +365,13 @@ impl Look<'_> {
         let before = self.own.iter().take(number).filter(|own| own.is_feed() && own.segment.lowest() <= z + SLACK);
         let is_near = |own: &Own<'_>| own.chords().iter().any(|chord| chord.distance_2(&[x, y]) <= BESIDE * BESIDE);
         before.filter(|own| !own.segment.falls()).any(|own| is_near(own))
+    }
+}
+
+impl ContourLine {
+    /// Whether another level at the same height takes what one leaves.
+    fn is_finished(&self, level: ContourLevel) -> bool {
+        self.levels.iter().any(|other| (other.tip - level.tip).abs() <= SAME_LEVEL && other.left < level.left)
     }
 }
 

@@ -258,8 +258,8 @@ pub enum ContourSide {
 pub struct ContourLine {
     /// In straight pieces.
     pub pieces: Vec<ContourPiece>,
-    /// The highest point of the walls beside them.
-    pub wall_top: f64,
+    /// The highest point of the upright plane through them that the tool touches.
+    pub plane_top: f64,
     /// Height from which on there is material.
     pub begins: f64,
     /// The levels on which they are followed.

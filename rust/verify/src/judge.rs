@@ -14,8 +14,8 @@ use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::tally::Tally;
 use crate::{
-    bored, chamfered, clearing, contoured, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair,
-    passes, reach, sequence, settings, tabs, travel, unreached, walls,
+    bored, chamfered, clearing, contoured, corner_angles, corners, covered, diagnosis, frame, holes, leaning,
+    low_links, pair, passes, reach, sequence, settings, tabs, travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.

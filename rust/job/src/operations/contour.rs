@@ -121,10 +121,15 @@ impl Work {
         PlanLine { corners: self.line.corners(), closed: self.line.closed }
     }
 
+    /// The highest point of the upright plane that the tool touches, mm.
+    fn plane_top(&self) -> f64 {
+        self.line.top().max(self.begins)
+    }
+
     /// How far the axis is from the line on a level, mm.
     pub fn distance(&self, cutter: &Cutter, side: EdgeSide, level: Level) -> f64 {
         match side.beside() {
-            Some(_) => cutter.at_height((self.line.top() - level.tip).max(0.0)).0 + level.left,
+            Some(_) => cutter.at_height((self.plane_top() - level.tip).max(0.0)).0 + level.left,
             None => 0.0,
         }
     }
@@ -329,7 +334,7 @@ impl OperationKind for Contour {
                     ends: piece.ends.map(|end| [end.x, end.y]),
                 })
                 .collect(),
-            wall_top: work.line.top(),
+            plane_top: work.plane_top(),
             begins: work.begins,
             levels: work.levels.iter().map(|level| ContourLevel { tip: level.tip, left: level.left }).collect(),
         };

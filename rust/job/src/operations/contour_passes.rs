@@ -22,7 +22,7 @@ const SAME: f64 = 1e-5;
 /// Air between a ramp's beginning and the material, mm.
 const AIR: f64 = 0.2;
 /// Positions of an edge are looked at so far apart at most, mm.
-const APART: f64 = 0.4;
+const APART: f64 = 0.1;
 /// Of the path's deviation what parallels take for their chords, where arcs are fitted to them and where not: 1.3 times that is used.
 const CHORDS: [f64; 2] = [0.35, 0.75];
 /// And what arcs take.
@@ -343,7 +343,7 @@ impl<'a> Room<'a> {
     }
 
     fn is_free_between(&self, [a, b]: [[f64; 2]; 2], z: f64) -> bool {
-        let count = (apart(a, b) / (0.25 * APART)).ceil().max(1.0) as usize;
+        let count = (apart(a, b) / APART).ceil().max(1.0) as usize;
         (0..=count).all(|i| {
             let share = i as f64 / count as f64;
             self.is_free([a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), z])
