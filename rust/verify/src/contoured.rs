@@ -204,7 +204,7 @@ impl Look<'_> {
                 known.0 = known.0.max(length);
             }
             match (worst.touched, worst.missing) {
-                (0, Some(missing)) => faults.push(Fault { kind: &faults::CONTOUR_LEVEL, ..missing }),
+                (0, Some(missing)) if line.is_alone(*level) => faults.push(Fault { kind: &faults::CONTOUR_LEVEL, ..missing }),
                 (_, missing) => faults.extend(missing.into_iter().chain(worst.far)),
             }
         }
@@ -369,6 +369,11 @@ impl Look<'_> {
 }
 
 impl ContourLine {
+    /// Whether no other level is at the height of one.
+    fn is_alone(&self, level: ContourLevel) -> bool {
+        self.levels.iter().filter(|other| (other.tip - level.tip).abs() <= SAME_LEVEL).count() == 1
+    }
+
     /// Whether another level at the same height takes what one leaves.
     fn is_finished(&self, level: ContourLevel) -> bool {
         self.levels.iter().any(|other| (other.tip - level.tip).abs() <= SAME_LEVEL && other.left < level.left)
