@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import random
 import re
@@ -174,7 +175,7 @@ def test_an_open_line_runs_from_the_first_named_edge_on() -> None:
 def test_alternate_runs_to_and_fro() -> None:
     text = text_of(job([FRONT], "right", direction="alternate", setup=STOCK))
     ends = [level(text, height)[-1][0] for height in heights(text)]
-    assert all(abs(a - b) > 79.0 for a, b in zip(ends, ends[1:], strict=False))
+    assert all(abs(a - b) > 79.0 for a, b in itertools.pairwise(ends))
 
 
 @pytest.mark.parametrize(
@@ -267,7 +268,9 @@ def test_every_machine_posts_it_and_its_text_is_found_sound(machine: str) -> Non
 def moved(text: str, axis: str, by: float) -> str:
     """The text with one coordinate of the operation's moves changed, mm."""
     head, body = text.split("(operation", 1)
-    return head + "(operation" + re.sub(rf"{axis}(-?\d+\.?\d*)", lambda found: f"{axis}{float(found[1]) + by:.3f}", body)
+    return (
+        head + "(operation" + re.sub(rf"{axis}(-?\d+\.?\d*)", lambda found: f"{axis}{float(found[1]) + by:.3f}", body)
+    )
 
 
 @pytest.mark.parametrize("by", [0.02, -0.02])
@@ -299,13 +302,14 @@ def test_a_level_that_is_raised_or_missing_is_found(edges: list[str], side: str,
     assert "missing-level" in kinds(other, asked)
 
 
-def test_a_stretch_that_is_left_out_is_found() -> None:
+def test_a_stretch_over_which_the_tool_is_raised_is_found() -> None:
     asked = job(OUTLINE, "outside")
     lines = text_of(asked).splitlines()
-    # of the last level what goes along the left side
-    at = max(i for i, line in enumerate(lines) if re.fullmatch(r"X-3\.00\d Y0|Y0", line))
-    del lines[at - 8 : at + 1]
-    assert kinds("\n".join([*lines, ""]), asked) & {"missing-pass", "excess", "gouge"}
+    # along the left side, on the last level
+    at = max(i for i, line in enumerate(lines) if line == "Y50")
+    lines[at : at + 2] = ["G0 Z47", "Y50", "G1 Z0 F200", f"{lines[at + 1]} F600"]
+    found = kinds("\n".join([*lines, ""]), asked)
+    assert "missing-pass" in found and "gouge" not in found
 
 
 def test_the_finish_pass_that_is_missing_is_found() -> None:
@@ -326,6 +330,75 @@ def test_the_wrong_side_is_found() -> None:
     left, right = (job([FRONT], side, **high) for side in ("left", "right"))
     assert kinds(text_of(left), left) == set() == kinds(text_of(right), right)
     assert "missing-level" in kinds(text_of(left), right) and "missing-level" in kinds(text_of(right), left)
+
+
+@pytest.mark.parametrize(("edges", "side"), [(OUTLINE, "outside"), (RIM, "inside"), ([FRONT], "right")])
+def test_climb_and_conventional_exchanged_are_found(edges: list[str], side: str) -> None:
+    climb, other = (job(edges, side, direction=direction) for direction in ("climb", "conventional"))
+    assert "cut-direction" in kinds(text_of(climb), other) and "cut-direction" in kinds(text_of(other), climb)
+    free = job(edges, side, direction="alternate")
+    assert kinds(text_of(free), free) <= {"unreached"}
+
+
+def test_a_path_ends_where_another_wall_stands() -> None:
+    # a wall of the pocket from its one end to the other
+    asked = job(["Edge13"], "left")
+    text = text_of(asked)
+    points = level(text, 6.0)
+    assert np.allclose(points[:, 0], POCKET[1][0] - 3.0, atol=OFF)
+    ends = [POCKET[0][1] + 3.0, POCKET[1][1] - 3.0]
+    assert [points[:, 1].min(), points[:, 1].max()] == pytest.approx(ends, abs=OFF)
+    assert kinds(text, asked) == {"unreached"} and 2 * 2.5 < unreached(text, asked) <= 2 * 3.0
+    # on its other side there is nothing but the part
+    assert kinds(text_of(job(["Edge13"], "right")), job(["Edge13"], "right")) == {"unreached"}
+
+
+def box(path: Path, lean: float = 0.0) -> Path:
+    """An STL file of a block of 20 x 16 x 8 mm at its top, its sides leaning out by so much."""
+    low = [(-lean, -lean, 0.0), (20 + lean, -lean, 0.0), (20 + lean, 16 + lean, 0.0), (-lean, 16 + lean, 0.0)]
+    high = [(0.0, 0.0, 8.0), (20.0, 0.0, 8.0), (20.0, 16.0, 8.0), (0.0, 16.0, 8.0)]
+    quads = [low[::-1], high, *([low[i], low[(i + 1) % 4], high[(i + 1) % 4], high[i]] for i in range(4))]
+    lines = ["solid box"]
+    for a, b, c, d in quads:
+        for triangle in ((a, b, c), (a, c, d)):
+            corners = "".join(f"vertex {x} {y} {z}\n" for x, y, z in triangle)
+            lines.append(f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet")
+    path.write_text("\n".join([*lines, "endsolid box\n"]), encoding="ascii")
+    return path
+
+
+def test_meshes_have_the_edges_of_their_level_faces(tmp_path: Path) -> None:
+    document = job(None, "outside", file=box(tmp_path / "box.stl")).to_dict()
+    document["part"]["units"] = "mm"
+    asked = sc.Job.from_dict(document)
+    text = text_of(asked)
+    beside = outside(level(text, 0.0), (0.0, 0.0), (20.0, 16.0))
+    assert (beside > 3.0 - 0.001).all() and (beside < 3.0 + OFF).all() and kinds(text, asked) == set()
+    document["part"]["file"] = str(box(tmp_path / "frustum.stl", 2.0))
+    with pytest.raises(sc.StylusError) as caught:
+        sc.plan(sc.Job.from_dict(document))
+    assert caught.value.code == "no-edge"
+
+
+def test_without_an_upright_wall_the_depth_has_to_be_stated(tmp_path: Path) -> None:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeCone
+    from OCP.STEPControl import STEPControl_AsIs, STEPControl_Writer
+
+    writer = STEPControl_Writer()
+    writer.Transfer(BRepPrimAPI_MakeCone(10.0, 6.0, 8.0).Shape(), STEPControl_AsIs)
+    writer.Write(str(tmp_path / "cone.step"))
+    top = {"z_bottom": 8.0, "setup": STOCK}
+    codes = set()
+    for edge in ("Edge1", "Edge2", "Edge3"):
+        with pytest.raises(sc.StylusError) as caught:
+            sc.plan(job([edge], "outside", file=tmp_path / "cone.step", setup=STOCK))
+        codes.add((caught.value.code, caught.value.where))
+        if caught.value.code != "missing":
+            continue
+        asked = job([edge], "outside", file=tmp_path / "cone.step", **top)
+        radius = np.hypot(*level(text_of(asked), 8.0).T)
+        assert radius.min() == pytest.approx(radius.max(), abs=OFF) and kinds(text_of(asked), asked) == set()
+    assert codes == {("missing", "operations[0].z_bottom"), ("not-level", "operations[0].edge_names[0]")}
 
 
 def test_a_straight_way_down_into_the_stock_is_found() -> None:

@@ -55,7 +55,7 @@ impl PlanLine {
         signed_area(&self.corners)
     }
 
-    /// The same the other way round.
+    /// The same in the other direction.
     #[must_use]
     pub fn reversed(mut self) -> Self {
         self.corners.reverse();
@@ -175,13 +175,13 @@ fn apart(a: Point, b: Point) -> f64 {
 /// How a tool comes down to a path along it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descent {
-    /// The tips on the way down, from the path's beginning on.
+    /// The tips on the ramp, from the path's beginning on.
     pub ramp: Vec<Vector>,
     /// The path from where that ends on.
     pub path: Stretch,
 }
 
-/// The way down along a path from one height to another, mm, with a slope of height over length: on closed paths round them, which then
+/// The ramp along a path from one height to another, mm, with a slope of height over length: on closed paths round them, which then
 /// begin where it ends; on open ones to and fro.
 #[must_use]
 pub fn descent(path: &Stretch, [from, to]: [f64; 2], slope: f64) -> Descent {

@@ -3,7 +3,7 @@
 //!
 //! Edges are followed every quarter of a millimetre, in plan, beside the straight pieces of the model's triangles. Where no pass touches a
 //! position, a tool is put where it would: is that free, then a pass is missing or too far, else the edge is not reached there.
-//! Whatever comes nearer than the radius takes stock that is to stay, or enters the wall. Ways down are measured by their slope.
+//! Whatever comes nearer than the radius takes stock that is to stay, or enters the wall. Ramps are measured by their slope.
 //!
 //! The method: `docs/concepts/contours.md`.
 
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{PointDistance, RTree};
 use styluscam_geometry::{Cutter, Vector};
-use styluscam_motion::{Cancelled, Program, Role, Watch};
+use styluscam_motion::{Cancelled, Program, Role, SpindleDirection, Watch};
 
 use crate::assignment::Assignment;
 use crate::body::Body;
@@ -36,6 +36,8 @@ const MOST: usize = 4000;
 const SAG: f64 = 1e-4;
 /// A pass that is farther from where it should be than this is another, mm.
 const ANOTHER: f64 = 0.1;
+/// Cosines of angles between a pass and its edge that are less are of a pass beside another edge.
+const ALONG: f64 = 0.9;
 /// The tool comes down through what is cleared where it is no farther beside the path that cleared it, mm.
 const BESIDE: f64 = 0.02;
 
@@ -84,7 +86,7 @@ pub(crate) fn judged(
         for line in &contouring.lines {
             watch.advance(0)?;
             judged.faults.extend(look.crossed(line));
-            look.line(line, (&mut judged.faults, &mut unreached), watch)?;
+            look.line((operation, line), (&mut judged.faults, &mut unreached), watch)?;
         }
         let what = "have no pass beside them on some level, for the tool would enter what is there";
         judged.findings.extend(named_edges(&unreached, what));
@@ -148,8 +150,21 @@ struct Look<'a> {
 struct Worst {
     far: Option<Fault>,
     missing: Option<Fault>,
+    /// A pass in the wrong direction.
+    turned: Option<Fault>,
     /// Positions that a pass touches.
     touched: usize,
+}
+
+/// A pass beside a position of an edge.
+#[derive(Clone, Copy)]
+struct Near {
+    /// By how much its axis is farther from the edge than it should be, mm.
+    beyond: f64,
+    /// The number of its move among the operation's.
+    number: usize,
+    /// The cosine of the angle between its direction and the edge's.
+    ahead: f64,
 }
 
 impl Look<'_> {
@@ -183,7 +198,7 @@ impl Look<'_> {
     /// What is wrong with the passes along a line, level by level; and what of it is not reached.
     fn line<'l>(
         &self,
-        line: &'l ContourLine,
+        (operation, line): (&ExpectedOperation, &'l ContourLine),
         (faults, unreached): (&mut Vec<Fault>, &mut BTreeMap<&'l str, (f64, Vector)>),
         watch: &Watch,
     ) -> Result<(), Cancelled> {
@@ -196,15 +211,18 @@ impl Look<'_> {
             let mut missed: BTreeMap<&'l str, (f64, Vector)> = BTreeMap::new();
             for piece in &line.pieces {
                 watch.advance(0)?;
-                self.piece((line, piece, *level), (&axes, &pieces), &mut worst, &mut missed);
+                self.piece((operation, line, piece, *level), (&axes, &pieces), (&mut worst, &mut missed));
             }
             // the lowest level misses most: what is missed on several counts once
             for (name, (length, at)) in missed {
                 let known = shortest.entry(name).or_insert((length, at));
                 known.0 = known.0.max(length);
             }
+            faults.extend(worst.turned);
             match (worst.touched, worst.missing) {
-                (0, Some(missing)) if line.is_alone(*level) => faults.push(Fault { kind: &faults::CONTOUR_LEVEL, ..missing }),
+                (0, Some(missing)) if line.is_alone(*level) => {
+                    faults.push(Fault { kind: &faults::CONTOUR_LEVEL, ..missing })
+                }
                 (_, missing) => faults.extend(missing.into_iter().chain(worst.far)),
             }
         }
@@ -217,18 +235,19 @@ impl Look<'_> {
     /// Looks at a piece of a line on a level.
     fn piece<'l>(
         &self,
-        (line, piece, level): (&ContourLine, &'l ContourPiece, ContourLevel),
+        (operation, line, piece, level): (&ExpectedOperation, &ContourLine, &'l ContourPiece, ContourLevel),
         (axes, pieces): (&Axes, &RTree<Line<[f64; 2]>>),
-        worst: &mut Worst,
-        missed: &mut BTreeMap<&'l str, (f64, Vector)>,
+        (worst, missed): (&mut Worst, &mut BTreeMap<&'l str, (f64, Vector)>),
     ) {
         let distance = self.radius(line, level.tip) + level.left;
         for (at, length) in positions(piece) {
             let least = if line.is_finished(level) { -self.limits.gouge - SLACK } else { -ANOTHER };
-            let beyond = self.beyond(axes, (at, piece), (distance, least));
-            let beyond = beyond.map(|(value, number)| (value + self.subject.deviation_outward, number));
-            if beyond.is_some_and(|(value, _)| value <= self.excess + SLACK) {
+            let near = self.near(axes, (at, piece), (distance, least));
+            let position = [at[0], at[1], level.tip];
+            if let Some(touching) = near.filter(|near| near.beyond <= self.excess + SLACK) {
                 worst.touched += 1; // what is too near is found by itself
+                let turned = worst.turned.is_none().then(|| self.turned(operation, touching)).flatten();
+                worst.turned = worst.turned.or(turned.map(|fault| Fault { position, ..fault }));
                 continue;
             }
             let aside = self.aside(piece);
@@ -245,11 +264,10 @@ impl Look<'_> {
                 known.0 += length;
                 continue;
             }
-            let position = [at[0], at[1], level.tip];
-            match beyond.filter(|(value, _)| *value <= ANOTHER) {
-                Some((value, number)) => {
+            match near {
+                Some(Near { beyond, number, .. }) => {
                     let near = self.own.get(number).map_or(self.last, |own| own.segment);
-                    let fault = near.fault(&faults::CONTOUR_LEFT).measured(value, self.excess);
+                    let fault = near.fault(&faults::CONTOUR_LEFT).measured(beyond, self.excess);
                     if worst.far.is_none_or(|far| far.weight < fault.weight) {
                         worst.far = Some(Fault { position, ..fault });
                     }
@@ -265,24 +283,37 @@ impl Look<'_> {
         }
     }
 
-    /// By how much the pass nearest to where one should be is farther from a position of a piece than a distance, mm, and the number of its
-    /// move; none where there is none on the right side. What is nearer by more than `least` (below 0) is another pass.
-    fn beyond(
-        &self,
-        axes: &Axes,
-        (at, piece): ([f64; 2], &ContourPiece),
-        (distance, least): (f64, f64),
-    ) -> Option<(f64, usize)> {
+    /// The pass nearest to where one should be at a distance from a position of a piece, mm, on its right side. What is nearer by more
+    /// than `least` (below 0) is another pass.
+    fn near(&self, axes: &Axes, (at, piece): ([f64; 2], &ContourPiece), (distance, least): (f64, f64)) -> Option<Near> {
         let farthest = distance + ANOTHER;
         let aside = self.aside(piece);
+        let [from, to] = piece.ends;
         let near = axes.locate_within_distance(at, farthest * farthest).filter_map(|chord| {
-            let axis = chord.geom().nearest_point(&at);
+            let line = chord.geom();
+            let axis = line.nearest_point(&at);
             let arm = [axis[0] - at[0], axis[1] - at[1]];
             let is_beside = self.contouring.side == ContourSide::On || arm[0] * aside[0] + arm[1] * aside[1] > 0.0;
-            let beyond = libm::hypot(arm[0], arm[1]) - distance;
-            (is_beside && beyond >= least).then_some((beyond, chord.data))
+            let beyond = libm::hypot(arm[0], arm[1]) - distance + self.subject.deviation_outward;
+            let dot = (line.to[0] - line.from[0]) * (to[0] - from[0]) + (line.to[1] - line.from[1]) * (to[1] - from[1]);
+            let ahead = dot / (apart(line.from, line.to) * apart(from, to)).max(f64::MIN_POSITIVE);
+            (is_beside && beyond >= least).then_some(Near { beyond, number: chord.data, ahead })
         });
-        near.min_by(|a, b| a.0.total_cmp(&b.0))
+        near.min_by(|a, b| a.beyond.total_cmp(&b.beyond))
+    }
+
+    /// That a pass goes along its edge in the other sense than asked for.
+    fn turned(&self, operation: &ExpectedOperation, near: Near) -> Option<Fault> {
+        let is_climb = self.contouring.is_climb?;
+        let edge_on_right = match self.contouring.side {
+            ContourSide::Left => near.ahead > 0.0,
+            ContourSide::Right => near.ahead < 0.0,
+            ContourSide::On => return None,
+        };
+        let turns_back = operation.spindle.is_some_and(|(_, sense)| sense == SpindleDirection::Counterclockwise);
+        let is_wrong = near.ahead.abs() > ALONG && edge_on_right != (is_climb != turns_back);
+        let segment = self.own.get(near.number)?.segment;
+        is_wrong.then(|| segment.fault(&faults::CUT_DIRECTION).measured(0.0, f64::from(u8::from(is_climb))))
     }
 
     /// Whether a tool stays out of the part, and of what stands around it.

@@ -238,7 +238,10 @@ pub struct Contouring {
     pub lines: Vec<ContourLine>,
     /// On which side of them the tool is.
     pub side: ContourSide,
-    /// Height over length of ways down into the material at most; none where it may go straight down.
+    /// Whether the tool meets the material from its uncut side (on the right of a tool that turns clockwise), or the other way round; none
+    /// where either is good.
+    pub is_climb: Option<bool>,
+    /// Height over length of ramps into the material at most; none where it may go straight down.
     pub entry_slope: Option<f64>,
 }
 

@@ -8,7 +8,7 @@ use styluscam_verify::{Contact, ContourLevel, ContourPiece, ContourSide, Contour
 
 use super::step::{Step, StepLimits};
 use super::{
-    contour_passes, keys, rails, About, Areas, Context, Effort, Machining, OperationKind, PassContext, PassSpacing,
+    contour_passes, keys, rails, About, Areas, Context, Direction, Effort, Machining, OperationKind, PassContext, PassSpacing,
     Planned, Serves, Tabs,
 };
 use crate::cutting::{CuttingWork, Engagement};
@@ -276,7 +276,7 @@ impl OperationKind for Contour {
             ("edges", common.edges.is_some()),
         ];
         keys::refuse(&refused, path, |key| {
-            let message = format!("a contour does not follow {key}: it goes along edges, as far as nothing else is in the way");
+            let message = format!("a contour does not follow {key}: it goes along edges until something else is in its path");
             (message, format!("remove {key}; which edges are followed is stated by edge_names"))
         })?;
         self.tabs.map_or(Ok(()), |tabs| tabs.check(path))
@@ -341,6 +341,11 @@ impl OperationKind for Contour {
         Passes::Contouring(Contouring {
             lines: work.iter().map(line).collect(),
             side,
+            is_climb: match given.direction {
+                Direction::Climb => Some(true),
+                Direction::Conventional => Some(false),
+                Direction::Alternate | Direction::Same => None,
+            },
             entry_slope: self.slope(),
         })
     }

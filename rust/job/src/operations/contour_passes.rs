@@ -1,4 +1,4 @@
-//! The path of a contour: parallels of its lines on each level, where the tool is free, and the way down to them.
+//! The path of a contour: parallels of its lines on each level, where the tool is free, and the ramps to them.
 
 use std::collections::BTreeMap;
 
