@@ -153,6 +153,15 @@ EXAMPLES = (
         },
     ),
     Example(
+        "contour",
+        "Contours along edges",
+        "`contour`: along named edges on one side of them, level by level, with ramps, leads, tabs and a finish pass. Milling.",
+        "edges",
+        {"kind": "contour", "step": {"height": 3.0}, "edge_side": "outside"},
+        process={"kind": "milling"},
+        more={"tools": {"stylus": {"profile": {"kind": "flat", "diameter": 6.0}}}},
+    ),
+    Example(
         "constant-scallop",
         "Equal scallop everywhere",
         "`constant-scallop`: contours from the border inwards, as far apart as the scallop allows on every slope. Milling.",

@@ -32,7 +32,7 @@ def test_faces_button_number_ok(session: Any) -> None:
 def test_every_kind_of_the_engine_works_on_the_first_click(session: Any) -> None:
     kinds = sc.job_schema()["$defs"]["OperationSection"]["oneOf"]
     made = session["every kind"]
-    unlike = {"chamfer", "drill", "flank", "helix-bore", "meridian", "pencil", "pocket"}
+    unlike = {"chamfer", "contour", "drill", "flank", "helix-bore", "meridian", "pencil", "pocket"}
     named = {kind["properties"]["kind"]["const"] for kind in kinds} - unlike
     assert len(made) == len(named)
     assert {seen["strategy"] for seen in made.values()} == named

@@ -13,7 +13,7 @@ const SAME: f64 = 1e-4;
 /// Walls that lean more in or out are no walls, rad.
 pub(crate) const MOST_LEAN: f64 = 1.05;
 /// How far a triangle's side lies beside a named edge's curve at most, beyond what its triangles are off, mm.
-const BESIDE: f64 = 0.01;
+pub(crate) const BESIDE: f64 = 0.01;
 /// Chords of a curve to which that is measured.
 const CHORDS: usize = 512;
 
@@ -43,9 +43,9 @@ pub(crate) struct EdgeChain {
 }
 
 /// What a corner measures, to the bit: faces of a STEP part share no vertex.
-type Key = [u64; 3];
+pub(crate) type Key = [u64; 3];
 
-fn key(point: Vector) -> Key {
+pub(crate) fn key(point: Vector) -> Key {
     <[u64; 3]>::from((point + Vector::zeros()).map(f64::to_bits))
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn has_curve(scene: &Scene, chains: &[EdgeChain], curve: &NurbsCurve)
     pieces.any(|piece| piece.edge.ends.iter().all(|end| beside(&chords, *end) <= near))
 }
 
-fn sides(mesh: &Mesh, triangle: usize) -> [[Vector; 2]; 3] {
+pub(crate) fn sides(mesh: &Mesh, triangle: usize) -> [[Vector; 2]; 3] {
     let [a, b, c] = mesh.corners(triangle);
     [[a, b], [b, c], [c, a]]
 }
@@ -175,14 +175,14 @@ fn miter(chain: &mut [EdgePiece], closed: bool) {
 }
 
 /// A curve of the part's file in chords, work coordinates.
-fn chords(scene: &Scene, curve: &NurbsCurve) -> Vec<Vector> {
+pub(crate) fn chords(scene: &Scene, curve: &NurbsCurve) -> Vec<Vector> {
     let [from, to] = curve.domain();
     let at = |i: usize| curve.at(from + (to - from) * i as f64 / CHORDS as f64).point;
     (0..=CHORDS).map(|i| scene.frame.point(at(i))).collect()
 }
 
 /// How far a point lies beside a line of chords, mm.
-fn beside(chords: &[Vector], point: Vector) -> f64 {
+pub(crate) fn beside(chords: &[Vector], point: Vector) -> f64 {
     let of_chord = |pair: &[Vector]| match pair {
         [a, b] => {
             let along = b - a;

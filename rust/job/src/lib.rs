@@ -13,6 +13,7 @@ mod cutting;
 mod die;
 mod document;
 mod earlier;
+mod edge_lines;
 mod error;
 mod estimate;
 mod faces;

@@ -83,17 +83,39 @@ pub fn stretches(
     mut is_free: impl FnMut([f64; 2]) -> bool,
     watch: &Watch,
 ) -> Result<Vec<Stretch>, Cancelled> {
+    free_lines(lines(edge, distance, deviation), edge.closed, &mut is_free, watch)
+}
+
+/// The stretches of a line along which a tool is free.
+///
+/// # Errors
+/// `Cancelled` when the watch is cancelled.
+pub fn free_stretches(
+    whole: &Stretch,
+    mut is_free: impl FnMut([f64; 2]) -> bool,
+    watch: &Watch,
+) -> Result<Vec<Stretch>, Cancelled> {
+    let lines = whole.points.windows(2).map(|pair| Line { ends: [pair[0], pair[1]] });
+    free_lines(lines, whole.closed, &mut is_free, watch)
+}
+
+fn free_lines(
+    lines: impl IntoIterator<Item = Line>,
+    closed: bool,
+    is_free: &mut impl FnMut([f64; 2]) -> bool,
+    watch: &Watch,
+) -> Result<Vec<Stretch>, Cancelled> {
     let mut found: Vec<Stretch> = Vec::new();
-    for line in lines(edge, distance, deviation) {
+    for line in lines {
         watch.advance(0)?;
-        for ends in free(&line, &mut is_free) {
+        for ends in free(&line, is_free) {
             match found.last_mut().and_then(|last| Some((*last.points.last()?, last))) {
                 Some((end, last)) if apart(end, ends[0]) <= JOINED => last.points.push(ends[1]),
                 _ => found.push(Stretch { points: ends.to_vec(), closed: false }),
             }
         }
     }
-    if edge.closed {
+    if closed {
         close(&mut found);
     }
     found.retain(|stretch| stretch.length() >= LEAST);
@@ -102,7 +124,7 @@ pub fn stretches(
 }
 
 /// Drops corners at which a line goes on straight.
-fn straightened(points: &mut Vec<[f64; 2]>) {
+pub(crate) fn straightened(points: &mut Vec<[f64; 2]>) {
     let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
     for point in points.drain(..) {
         while let [.., a, b] = kept.as_slice() {

@@ -6,6 +6,7 @@ mod arcs;
 pub mod boring;
 pub mod budget;
 pub mod chamfer;
+pub mod contouring;
 mod corners;
 mod error;
 mod fitting;

@@ -159,14 +159,16 @@ impl Look<'_> {
 
 /// What of the edges is not reached, by their names.
 fn not_reached(unreached: &BTreeMap<&str, (f64, Vector)>) -> Option<Finding> {
+    named_edges(unreached, "are not chamfered, for the tool would enter what is beside them")
+}
+
+/// Lengths of edges, each with a position on it, of which something is so.
+pub(crate) fn named_edges(unreached: &BTreeMap<&str, (f64, Vector)>, what: &str) -> Option<Finding> {
     let all: Vec<_> = unreached.iter().filter(|(_, (length, _))| *length > NOTHING).collect();
     let (_, (_, first)) = all.first()?;
     let sum: f64 = all.iter().map(|(_, (length, _))| length).sum();
     let named: Vec<String> = all.iter().map(|(name, (length, _))| format!("{name} ({length:.2} mm)")).collect();
-    let message = format!(
-        "{sum:.2} mm of the edges are not chamfered, for the tool would enter what is beside them: {}",
-        named.join(", ")
-    );
+    let message = format!("{sum:.2} mm of the edges {what}: {}", named.join(", "));
     let finding = Finding::of_all(FindingKind::Unreached, Severity::Warning, message);
     Some(Finding { position: Some((*first).into()), length_mm: sum, value_mm: Some(sum), value: Some(sum), ..finding })
 }

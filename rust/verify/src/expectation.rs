@@ -104,6 +104,8 @@ pub enum Passes {
     Boring(Boring),
     /// Along edges with a cone: what it makes of each is checked.
     Chamfering(Chamfering),
+    /// Along edges, beside them or on them: each is checked on every level.
+    Contouring(Contouring),
     /// In no order that is known: what they leave of the faces where the tool can touch is checked.
     Covering {
         /// The most that may be left, mm.
@@ -229,6 +231,62 @@ pub struct ChamferedEdge {
     pub edge: ChamferEdge,
 }
 
+/// How passes go along edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contouring {
+    /// The edges, joined end to end.
+    pub lines: Vec<ContourLine>,
+    /// On which side of them the tool is.
+    pub side: ContourSide,
+    /// Whether the tool meets the material from its uncut side (on the right of a tool that turns clockwise), or the other way round; none
+    /// where either is good.
+    pub is_climb: Option<bool>,
+    /// Height over length of ramps into the material at most; none where it may go straight down.
+    pub entry_slope: Option<f64>,
+}
+
+/// The side of edges on which a tool is, seen along them; those that close go counterclockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContourSide {
+    /// On their left.
+    Left,
+    /// On their right.
+    Right,
+    /// On them: the tip goes along them.
+    On,
+}
+
+/// Edges that follow each other, work coordinates, mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContourLine {
+    /// In straight pieces.
+    pub pieces: Vec<ContourPiece>,
+    /// The highest point of the upright plane through them that the tool touches.
+    pub plane_top: f64,
+    /// Height from which on there is material.
+    pub begins: f64,
+    /// The levels on which they are followed.
+    pub levels: Vec<ContourLevel>,
+}
+
+/// A straight piece of an edge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContourPiece {
+    /// The edge as a person names it.
+    pub name: String,
+    /// Its ends in plan.
+    pub ends: [[f64; 2]; 2],
+}
+
+/// A level on which an edge is followed, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContourLevel {
+    /// Height of the tip.
+    pub tip: f64,
+    /// Stock that stays on the wall.
+    pub left: f64,
+}
+
 /// A hole that the tool goes down into, work coordinates, mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrilledHole {
@@ -306,6 +364,7 @@ impl Expectation {
             | Passes::Drilling(_)
             | Passes::Boring(_)
             | Passes::Chamfering(_)
+            | Passes::Contouring(_)
             | Passes::Covering { .. }
             | Passes::Unordered { .. } => &[],
         }
@@ -349,6 +408,12 @@ impl Expectation {
     pub(crate) fn chamfering(&self) -> Option<&Chamfering> {
         let Passes::Chamfering(chamfering) = &self.passes else { return None };
         Some(chamfering)
+    }
+
+    /// How it goes along edges, where it does.
+    pub(crate) fn contouring(&self) -> Option<&Contouring> {
+        let Passes::Contouring(contouring) = &self.passes else { return None };
+        Some(contouring)
     }
 
     /// The triangles that it is for.

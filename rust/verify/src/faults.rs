@@ -3,6 +3,7 @@
 //! A new kind is one constant here and one variant of [`FindingKind`].
 
 mod chamfered;
+mod contoured;
 mod drilled;
 mod stock;
 mod tabs;
@@ -12,6 +13,7 @@ use styluscam_motion::Move;
 use crate::findings::{FindingKind, Severity};
 
 pub(crate) use chamfered::*;
+pub(crate) use contoured::*;
 pub(crate) use drilled::*;
 pub(crate) use stock::*;
 pub(crate) use tabs::*;

@@ -14,8 +14,8 @@ use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::tally::Tally;
 use crate::{
-    bored, chamfered, clearing, corner_angles, corners, covered, diagnosis, frame, holes, leaning, low_links, pair,
-    passes, reach, sequence, settings, tabs, travel, unreached, walls,
+    bored, chamfered, clearing, contoured, corner_angles, corners, covered, diagnosis, frame, holes, leaning,
+    low_links, pair, passes, reach, sequence, settings, tabs, travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.
@@ -42,6 +42,8 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     faults.extend(of_passes(program, &segments, &assignment, subject, limits, watch)?);
     let cleared = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
     faults.extend(cleared.faults);
+    let contours = contoured::judged(program, &segments, &assignment, (subject, limits), watch)?;
+    faults.extend(contours.faults);
     let leaning = leaning::judged(program, &assignment, subject, limits, watch)?;
     faults.extend(leaning.faults);
     tally.samples += leaning.samples;
@@ -59,7 +61,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let of_shape = found
         .chain(pair.finding)
         .chain(steep)
-        .chain(cleared.findings.into_iter().chain(not_chamfered))
+        .chain(cleared.findings.into_iter().chain(not_chamfered).chain(contours.findings))
         .chain(beyond_reach)
         .chain(travel::no_feed_moves(program));
     let of_text =

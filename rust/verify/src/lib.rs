@@ -39,6 +39,7 @@ mod chamfered;
 mod clearance;
 mod clearing;
 mod contact_lines;
+mod contoured;
 mod convex;
 mod corner_angles;
 mod corners;
@@ -106,8 +107,9 @@ pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
 };
 pub use expectation::{
-    Boring, ChamferedEdge, Chamfering, Clearing, Contact, DrilledHole, Drilling, Expectation, ExpectedOperation,
-    FlankFace, FlankPasses, Layers, OrderedPasses, Passes, TabShape,
+    Boring, ChamferedEdge, Chamfering, Clearing, Contact, ContourLevel, ContourLine, ContourPiece, ContourSide,
+    Contouring, DrilledHole, Drilling, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers, OrderedPasses,
+    Passes, TabShape,
 };
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};

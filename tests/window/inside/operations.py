@@ -61,8 +61,8 @@ def every_kind() -> Any:
     yield from stage.workbench("StylusCamWorkbench")
     result = {}
     # a meridian is formed by spinning, a pocket is cut from stock, a flank is milled, holes are drilled and bored, edges
-    # chamfered: not in the job of a sheet, whose part has no concave edges either
-    others = ("Chamfer", "Drill", "Flank", "HelixBore", "Meridian", "Pencil", "Pocket")
+    # chamfered and followed: not in the job of a sheet, whose part has no concave edges either
+    others = ("Chamfer", "Contour", "Drill", "Flank", "HelixBore", "Meridian", "Pencil", "Pocket")
     for name in (name for name in commands.groups()["operations"] if not name.endswith(others)):
         FreeCADGui.Selection.clearSelection()
         yield from stage.press(name)

@@ -11,7 +11,7 @@ use styluscam_toolpath::offset::{Envelope, Index};
 use styluscam_verify::{ChamferedEdge, Chamfering, Contact, Passes};
 
 use super::budget;
-use super::facts::counted;
+use super::facts::{self, counted};
 use super::in_order::in_order;
 use super::keys;
 use super::rails;
@@ -21,7 +21,6 @@ use super::{
 };
 use crate::level_edges::{has_curve, level_edges, EdgeChain, EdgePiece, MOST_LEAN};
 use crate::limits::GOUGE;
-use crate::numbers::shown;
 use crate::{JobError, OperationKeys, Scene};
 
 /// Cones have more than this angle from the axis and from the level, rad.
@@ -40,8 +39,6 @@ const UPRIGHT: f64 = 1e-6;
 const SAME: f64 = 1e-5;
 /// Positions of an edge are looked at so far apart at most, mm.
 const APART: f64 = 0.4;
-/// Less of an edge is no length, mm.
-const NOTHING: f64 = 0.02;
 
 /// Chamfers the sharp edges between the level ones of the selected faces and the walls that go down from them, with the cone of a tool:
 /// the chamfer has its angle. The model has the edges sharp. What the tool cannot reach without entering what is beside it is left, and
@@ -396,7 +393,7 @@ fn moved(
     if across > 0.0 {
         facts.push(Fact::length("across", across, "across from edge to edge"));
     }
-    facts.extend(left_fact(missed));
+    facts.extend(facts::not_reached(missed));
     let words = counted(found.len(), "pass", "passes") + " along " + &counted(work.chains.len(), "edge", "edges");
     Ok(Planned {
         moves: moves.into_iter().map(|step| step.of_operation(context.operation)).collect(),
@@ -407,16 +404,6 @@ fn moved(
         facts,
         surface: None,
     })
-}
-
-/// What is left of the edges, with their names.
-fn left_fact(missed: &BTreeMap<String, f64>) -> Option<Fact> {
-    let all: Vec<_> = missed.iter().filter(|(_, length)| **length > NOTHING).collect();
-    let sum: f64 = all.iter().map(|(_, length)| **length).sum();
-    let named: Vec<String> =
-        all.iter().map(|(name, length)| format!("{name} ({} mm)", shown((**length * 1e2).round() / 1e2))).collect();
-    let words = format!("{sum:.2} mm not reached: {}", named.join(", "));
-    (!all.is_empty()).then_some(Fact { fact: "not_reached", value: sum, unit: "mm", words })
 }
 
 fn tip_offset() -> f64 {

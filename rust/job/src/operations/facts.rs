@@ -1,6 +1,13 @@
 //! What is reported of a planned operation: its figures, and what becomes of its faces.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
+
+use crate::numbers::shown;
+
+/// Less of an edge is no length, mm.
+const NOTHING: f64 = 0.02;
 
 /// A figure of a planned operation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -27,6 +34,16 @@ impl Fact {
     pub fn length(fact: &'static str, mm: f64, words: &str) -> Self {
         Self { fact, value: mm, unit: "mm", words: format!("{words} {mm:.3} mm") }
     }
+}
+
+/// What of edges is not reached, by their names, mm.
+pub(super) fn not_reached(missed: &BTreeMap<String, f64>) -> Option<Fact> {
+    let all: Vec<_> = missed.iter().filter(|(_, length)| **length > NOTHING).collect();
+    let sum: f64 = all.iter().map(|(_, length)| **length).sum();
+    let named: Vec<String> =
+        all.iter().map(|(name, length)| format!("{name} ({} mm)", shown((**length * 1e2).round() / 1e2))).collect();
+    let words = format!("{sum:.2} mm not reached: {}", named.join(", "));
+    (!all.is_empty()).then_some(Fact { fact: "not_reached", value: sum, unit: "mm", words })
 }
 
 /// "1 level", "2 levels", "12,000 levels".

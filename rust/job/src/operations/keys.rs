@@ -23,20 +23,20 @@ pub struct OperationKeys {
     /// Faces that the tool keeps away from: "rest" (all others that face up, or stand upright where faces = "all" takes upright
     /// walls), or names; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "drill", "helix-bore", "chamfer"]))]
+    #[schemars(extend("x-not-of" = ["pocket", "drill", "helix-bore", "chamfer", "contour"]))]
     pub check_faces: Option<CheckSelection>,
     /// How far tool, shank and holder, with the sheet under them, stay away from those faces, mm; the part's when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "drill", "helix-bore", "chamfer"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
+    #[schemars(extend("x-not-of" = ["pocket", "drill", "helix-bore", "chamfer", "contour"], "x-unit" = "mm", "minimum" = 0.0, "maximum" = 1000.0))]
     pub check_clearance: Option<f64>,
     /// Where passes may run: inside edges in plan, and on contacts of some slopes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"], "x-example" = "{ slope_deg = [30.0, 60.0] }"))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer", "contour"], "x-example" = "{ slope_deg = [30.0, 60.0] }"))]
     pub boundary: Option<BoundaryKeys>,
     /// What happens at the outer edges of the selected faces; when left out, passes stop there, and in forming roll over those
     /// that the tool comes down over.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"]))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer", "contour"]))]
     pub edges: Option<Edges>,
     /// The channel whose program does it, where the process has several; "main" when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -71,11 +71,11 @@ pub struct OperationKeys {
     /// Largest angle by which the path turns from one cutting move to the next, degrees: passes that follow the surface get shorter lines
     /// and arcs for it. Edges of the part, straight links and plunges turn by more; the verification names each. Not limited when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer"], "x-advanced" = true, "x-unit" = "deg", "minimum" = 0.1, "maximum" = 90.0))]
+    #[schemars(extend("x-not-of" = ["pocket", "flank", "drill", "helix-bore", "chamfer", "contour"], "x-advanced" = true, "x-unit" = "deg", "minimum" = 0.1, "maximum" = 90.0))]
     pub max_corner_deg: Option<f64>,
     /// No loop is missed whose inside or surroundings hold a disc of this diameter, mm.
     #[serde(default = "smallest_feature")]
-    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore", "chamfer"], "x-advanced" = true, "x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
+    #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore", "chamfer", "contour"], "x-advanced" = true, "x-unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
     pub smallest_feature: f64,
     /// How high rapids from pass to pass go.
     #[serde(default)]

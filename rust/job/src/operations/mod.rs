@@ -18,6 +18,7 @@ mod before;
 pub(crate) mod budget;
 mod clears;
 mod context;
+mod contour_passes;
 mod corners;
 mod effort;
 mod entry;
@@ -60,6 +61,7 @@ kinds! {
         constant_scallop::ConstantScallop = "constant-scallop",
         pencil::Pencil = "pencil",
         chamfer::Chamfer = "chamfer",
+        contour::Contour = "contour",
     }
 }
 

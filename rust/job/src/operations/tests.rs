@@ -62,8 +62,9 @@ fn every_kind_plans_and_says_what_it_planned() {
     let (part, watch) = (frustum(), Watch::default());
     let (upright, turning) = (machine(), Machine::shipped("linuxcnc-trunnion").unwrap());
     // a pocket takes a minute with a tool this small, and a frustum has neither holes nor concave edges, nor the ball a cone:
-    // tests/python/test_pocket_operation.py, test_drill.py, test_helix_bore.py, test_pencil.py and test_chamfer.py plan those
-    let others = ["pocket", "drill", "helix-bore", "pencil", "chamfer"];
+    // tests/python/test_pocket_operation.py, test_drill.py, test_helix_bore.py, test_pencil.py, test_chamfer.py and
+    // test_contour.py plan those
+    let others = ["pocket", "drill", "helix-bore", "pencil", "chamfer", "contour"];
     for kind in kinds().filter(|kind| !others.contains(&Operation::NAMES[*kind])) {
         let job = job(kind).unwrap();
         let scene = Scene::new(&job, crate::MAIN_CHANNEL, &part).unwrap();
@@ -98,6 +99,7 @@ fn every_kind_plans_and_says_what_it_planned() {
             Passes::Drilling(drilling) => assert!(!drilling.holes.is_empty(), "{name}"),
             Passes::Boring(boring) => assert!(!boring.holes.is_empty(), "{name}"),
             Passes::Chamfering(chamfering) => assert!(!chamfering.edges.is_empty(), "{name}"),
+            Passes::Contouring(contouring) => assert!(!contouring.lines.is_empty(), "{name}"),
             Passes::Covering { scallop } => assert!(scallop > 0.0, "{name}"),
             Passes::Unordered { reason } => {
                 assert!(!reason.is_empty(), "{name} does not say why its passes are not checked");

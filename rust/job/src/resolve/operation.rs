@@ -111,6 +111,7 @@ pub fn descent_of(job: &JobDocument, scene: &Scene, tool: &Tool, section: &Opera
         | Passes::Drilling(_)
         | Passes::Boring(_)
         | Passes::Chamfering(_)
+        | Passes::Contouring(_)
         | Passes::Covering { .. }
         | Passes::Unordered { .. } => None,
     }

@@ -26,7 +26,7 @@ mod moves;
 mod offset;
 mod pieces;
 mod planner;
-mod polygons;
+pub(crate) mod polygons;
 mod request;
 mod sequence;
 mod steering;

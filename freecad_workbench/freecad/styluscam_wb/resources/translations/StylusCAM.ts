@@ -358,6 +358,16 @@ axis: Of the tool's axis, as it is posted: the rim is faster.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>On which side of the edges the tool is: of those that close outside, inside or on; of others left, right or on, seen from the first
+named one on.
+outside: Outside of edges that close.
+inside: Inside of them.
+left: On the left of edges that do not close.
+right: On the right of them.
+on: On the edges: the tip goes along them.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>One more level at every level floor that no other level stands on: shoulders and pockets' floors at their exact height.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -385,7 +395,9 @@ pencil: Passes along concave edges and narrow fillets, where the tool touches tw
 tool leave in the corners.
 chamfer: Chamfers the sharp edges between the level ones of the selected faces and the walls that go down from them, with the cone of a tool:
 the chamfer has its angle. The model has the edges sharp. What the tool cannot reach without entering what is beside it is left, and
-listed. All directions but conventional are climb.</source>
+listed. All directions but conventional are climb.
+contour: Mills along level edges of the part, beside them or on them, level by level down the walls at them. The tool stands so that its
+silhouette touches the upright plane through the edge; where it would enter the part elsewhere the path ends, and what is left is listed.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -599,6 +611,10 @@ As JSON
     <message>
         <source>Whether the stock to leave is taken as well, after the rest of its level: by a pass along the walls and a layer over each level floor,
 with the same bound of the engagement angle.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whether the tool goes straight down to each level instead, into the material too.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -969,6 +985,10 @@ Stock is that of the set-up, the part's box where it states none, or what the op
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Contour</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Contours over the surface, from its border inwards, between which the same scallop stands everywhere.</source>
         <translation type="unfinished"></translation>
     </message>
@@ -1168,6 +1188,10 @@ cycle get its moves. Of faces = "all" only holes of the tool's diameter are take
     </message>
     <message>
         <source>Edge names</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Edge side</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1528,6 +1552,10 @@ by-area: Each area from the top down before the next one, where that is less air
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Inside of them.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Intermediate stages: their wall angles, degrees, rising, [50.0, 65.0]; or how many, 2, which are then spread evenly between
 what the sheet withstands in one pass and the part's steepest wall. All operations are done for each stage first, whose walls
 are no steeper, and for the part at last; for walls that the sheet does not withstand in one pass.
@@ -1729,6 +1757,11 @@ Range: 0 to 1000 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Mills along level edges of the part, beside them or on them, level by level down the walls at them. The tool stands so that its
+silhouette touches the upright plane through the edge; where it would enter the part elsewhere the path ends, and what is left is listed.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Mills ruled surfaces, such as blades and twisted walls, with the side of a tool that leans: on machines with two rotary axes. The tool
 is a cylinder or a cone, with a flat end or a round one.</source>
         <translation type="unfinished"></translation>
@@ -1825,6 +1858,28 @@ axis: Of the tool's axis, as it is posted: the rim is faster.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>On the edges: the tip goes along them.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>On the left of edges that do not close.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>On the right of them.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>On which side of the edges the tool is: of those that close outside, inside or on; of others left, right or on, seen from the first
+named one on.
+outside: Outside of edges that close.
+inside: Inside of them.
+left: On the left of edges that do not close.
+right: On the right of them.
+on: On the edges: the tip goes along them.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>One descent along the walls: a loop at the top, turns that fall evenly along their length, a loop at the bottom. Where a
 wall's loops part (two pockets in one cup) each part has a spiral of its own. It runs one way: the higher ground on its right.</source>
         <translation type="unfinished"></translation>
@@ -1857,7 +1912,9 @@ pencil: Passes along concave edges and narrow fillets, where the tool touches tw
 tool leave in the corners.
 chamfer: Chamfers the sharp edges between the level ones of the selected faces and the walls that go down from them, with the cone of a tool:
 the chamfer has its angle. The model has the edges sharp. What the tool cannot reach without entering what is beside it is left, and
-listed. All directions but conventional are climb.</source>
+listed. All directions but conventional are climb.
+contour: Mills along level edges of the part, beside them or on them, level by level down the walls at them. The tool stands so that its
+silhouette touches the upright plane through the edge; where it would enter the part elsewhere the path ends, and what is left is listed.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1866,6 +1923,10 @@ listed. All directions but conventional are climb.</source>
     </message>
     <message>
         <source>Order</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Outside of edges that close.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -1931,6 +1992,10 @@ tool leave in the corners.</source>
     </message>
     <message>
         <source>Play</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Plunge</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2738,6 +2803,10 @@ with the same bound of the engagement angle.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Whether the tool goes straight down to each level instead, into the material too.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Whether this is stated</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2898,6 +2967,10 @@ Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>contour</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>contours</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2999,6 +3072,10 @@ Range: 0.01 to 100 mm</source>
     </message>
     <message>
         <source>index</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>inside</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -3118,11 +3195,19 @@ Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>on</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>one-point</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>ordering</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>outside</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
