@@ -9,7 +9,7 @@ import pytest
 from test_pocket_operation import block, kinds, whole_lines
 
 import styluscam as sc
-from blocks import FLOOR, SIZE, TOP
+from blocks import FLOOR, SIZE, TOP, mesh
 
 STEP = 2.5
 SIDES = 3.0
@@ -120,3 +120,12 @@ def test_rest_roughing_owes_no_level_on_which_nothing_is_left() -> None:
     above = job(rest={"z_bottom": 4.0})
     assert kinds(above, lines_of(above)) == set()
     assert "missing-level" in kinds(asked, lines_of(above))
+
+
+def test_a_face_that_slopes_by_ten_micrometres_is_no_level_floor() -> None:
+    asked = job()
+    vertices, triangles, faces = mesh()
+    is_top = np.isclose(vertices[:, 2], TOP)
+    vertices[is_top, 2] += 5e-4 * vertices[is_top, 0]
+    sloped = sc.Job.from_dict(asked.to_dict(), part=sc.Part.from_mesh(vertices, triangles, face_ids=faces))
+    assert "missing-level" not in kinds(sloped, lines_of(sloped))

@@ -280,7 +280,8 @@ impl<'a> Laying<'a> {
         let entered = self.entered(stacks);
         let passes: Vec<Pass> = entered.iter().map(|entered| entered.pass.clone()).collect();
         let tabs = self.kind.tabs.map(|tabs| tabs.planned(context, &passes)).transpose()?;
-        let (moves, linked) = links::linked(context, (entered, Seam::Nearest, ARCS * budget.deviation), along, &rules)?;
+        let (moves, linked) =
+            links::linked(context, (entered, Seam::Nearest, ARCS * budget.deviation), (along, false), &rules)?;
         let mut facts = self.facts(stacks, across);
         facts.extend(linked);
         facts.extend(tabs.as_ref().map(|tabs| tabs.fact()));
