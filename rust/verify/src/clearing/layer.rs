@@ -257,7 +257,8 @@ impl Layer<'_> {
     fn doing(&self, own: &Own) -> Option<Doing> {
         let segment = own.segment;
         let lowest = segment.lowest() - self.gap_of(own);
-        let start = segment.start.filter(|_| lowest < self.top - SLACK)?;
+        // a height that is rounded to the top of the layer is not in it
+        let start = segment.start.filter(|_| lowest < self.top - SLACK.max(0.5 * self.unit))?;
         let goes_up = !segment.travels() && segment.end[2] >= start[2];
         let falls = own.descends && start[2] > self.floor + SAME_LEVEL;
         match segment.kind {
