@@ -205,13 +205,13 @@ def test_the_silhouette_of_any_tool_touches_the_plane_through_the_edge(
 
 @pytest.mark.parametrize("angle", [1.0, 3.0, 8.0])
 @pytest.mark.parametrize(("edges", "side"), [(RIM, "inside"), (OUTLINE, "outside"), ([FRONT], "right")])
-def test_no_way_down_is_steeper_than_stated(angle: float, edges: list[str], side: str) -> None:
+def test_no_ramp_is_steeper_than_stated(angle: float, edges: list[str], side: str) -> None:
     asked = job(edges, side, entry_angle_deg=angle, setup=STOCK)
     text = text_of(asked)
     assert kinds(text, asked) <= {"unreached"}
     read = sc.read_gcode(text, "linuxcnc").moves
-    way = np.diff(read["end"], axis=0)
-    run, fall = np.hypot(way[:, 0], way[:, 1]), -way[:, 2]
+    steps = np.diff(read["end"], axis=0)
+    run, fall = np.hypot(steps[:, 0], steps[:, 1]), -steps[:, 2]
     ramps = (run > 0.0) & (fall > 1e-6)
     assert ramps.any() and (fall[ramps] <= math.tan(math.radians(angle)) * run[ramps] + 0.0021).all()
     assert fall[ramps].sum() / run[ramps].sum() == pytest.approx(math.tan(math.radians(angle)), rel=0.02)
@@ -401,7 +401,7 @@ def test_without_an_upright_wall_the_depth_has_to_be_stated(tmp_path: Path) -> N
     assert codes == {("missing", "operations[0].z_bottom"), ("not-level", "operations[0].edge_names[0]")}
 
 
-def test_a_straight_way_down_into_the_stock_is_found() -> None:
+def test_a_plunge_into_the_stock_is_found() -> None:
     straight = job(RIM, "inside", plunge=True)
     text = text_of(straight)
     assert kinds(text, straight) == {"unreached"}

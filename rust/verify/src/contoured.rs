@@ -221,7 +221,7 @@ impl Look<'_> {
             faults.extend(worst.turned);
             match (worst.touched, worst.missing) {
                 (0, Some(missing)) if line.is_alone(*level) => {
-                    faults.push(Fault { kind: &faults::CONTOUR_LEVEL, ..missing })
+                    faults.push(Fault { kind: &faults::CONTOUR_LEVEL, ..missing });
                 }
                 (_, missing) => faults.extend(missing.into_iter().chain(worst.far)),
             }
@@ -395,7 +395,7 @@ impl Look<'_> {
     fn is_cleared(&self, number: usize, [x, y, z]: [f64; 3]) -> bool {
         let before = self.own.iter().take(number).filter(|own| own.is_feed() && own.segment.lowest() <= z + SLACK);
         let is_near = |own: &Own<'_>| own.chords().iter().any(|chord| chord.distance_2(&[x, y]) <= BESIDE * BESIDE);
-        before.filter(|own| !own.segment.falls()).any(|own| is_near(own))
+        before.filter(|own| !own.segment.falls()).any(is_near)
     }
 }
 

@@ -2,9 +2,8 @@
 //!
 //! A new kind is one constant here and one variant of [`FindingKind`].
 
-mod chamfered;
-mod contoured;
 mod drilled;
+mod edges;
 mod stock;
 mod tabs;
 
@@ -12,9 +11,8 @@ use styluscam_motion::Move;
 
 use crate::findings::{FindingKind, Severity};
 
-pub(crate) use chamfered::*;
-pub(crate) use contoured::*;
 pub(crate) use drilled::*;
+pub(crate) use edges::*;
 pub(crate) use stock::*;
 pub(crate) use tabs::*;
 

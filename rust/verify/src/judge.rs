@@ -27,10 +27,10 @@ use crate::{
 pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watch) -> Result<Report, Cancelled> {
     let segments = placed(program, subject, limits);
     let frame = Frame::of(program, &segments, subject, limits);
-    let (mut tally, not_chamfered) = measured(&segments, subject, limits, frame.as_ref(), watch)?;
+    let assignment = Assignment::new(program, subject);
+    let (mut tally, of_edges) = measured((program, &segments, &assignment), subject, limits, frame.as_ref(), watch)?;
     let mut faults = std::mem::take(&mut tally.faults);
     let axes = subject.axes.unwrap_or(Axes { program, unknown_positions: subject.unknown_positions });
-    let assignment = Assignment::new(program, subject);
     let mut beyond = Vec::new();
     if !limits.shape_only {
         faults.extend(of_text(program, &segments, &assignment, subject, limits, frame.as_ref(), watch)?);
@@ -42,8 +42,6 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     faults.extend(of_passes(program, &segments, &assignment, subject, limits, watch)?);
     let cleared = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
     faults.extend(cleared.faults);
-    let contours = contoured::judged(program, &segments, &assignment, (subject, limits), watch)?;
-    faults.extend(contours.faults);
     let leaning = leaning::judged(program, &assignment, subject, limits, watch)?;
     faults.extend(leaning.faults);
     tally.samples += leaning.samples;
@@ -61,7 +59,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     let of_shape = found
         .chain(pair.finding)
         .chain(steep)
-        .chain(cleared.findings.into_iter().chain(not_chamfered).chain(contours.findings))
+        .chain(cleared.findings.into_iter().chain(of_edges))
         .chain(beyond_reach)
         .chain(travel::no_feed_moves(program));
     let of_text =
@@ -89,9 +87,9 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     })
 }
 
-/// The distances along the moves, with the faults of edges that they chamfer; and what is found of these edges beyond that.
+/// The distances along the moves, with the faults of edges that they chamfer or go along; and what is found of these edges beyond that.
 fn measured(
-    segments: &[Segment],
+    (program, segments, assignment): (&Program, &[Segment], &Assignment),
     subject: &Subject,
     limits: &Limits,
     frame: Option<&Frame>,
@@ -100,8 +98,9 @@ fn measured(
     let shapes = Shapes::of(subject);
     let mut tally = measure(segments, (subject, &shapes), limits, frame, watch)?;
     let edges = chamfered::judged(segments, (subject, &shapes), limits, watch)?;
-    tally.faults.extend(edges.faults);
-    Ok((tally, edges.findings))
+    let contours = contoured::judged(program, segments, assignment, (subject, limits), watch)?;
+    tally.faults.extend(edges.faults.into_iter().chain(contours.faults));
+    Ok((tally, edges.findings.into_iter().chain(contours.findings).collect()))
 }
 
 /// What is owed to the faces of the operations and is not there.

@@ -2,14 +2,15 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::{Cutter, NurbsCurve};
-use styluscam_toolpath::contouring::{Beside, PlanLine};
-use styluscam_verify::{Contact, ContourLevel, ContourPiece, ContourSide, Contouring, ContourLine, Passes};
+use styluscam_geometry::NurbsCurve;
+use styluscam_toolpath::contouring::Beside;
+use styluscam_verify::{Contact, ContourLevel, ContourLine, ContourPiece, ContourSide, Contouring, Passes};
 
+use super::contour_work::{EdgeSide, Level, Rule, Work};
 use super::step::{Step, StepLimits};
 use super::{
-    contour_passes, keys, rails, About, Areas, Context, Direction, Effort, Machining, OperationKind, PassContext, PassSpacing,
-    Planned, Serves, Tabs,
+    contour_passes, keys, rails, About, Areas, Context, Direction, Effort, Machining, OperationKind, PassContext,
+    PassSpacing, Planned, Serves, Tabs,
 };
 use crate::cutting::{CuttingWork, Engagement};
 use crate::edge_lines::{lines_of_edges, lines_of_faces, EdgeLine};
@@ -53,88 +54,6 @@ pub struct Contour {
     pub tabs: Option<Tabs>,
 }
 
-/// On which side of edges a tool is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum EdgeSide {
-    /// Outside of edges that close.
-    Outside,
-    /// Inside of them.
-    Inside,
-    /// On the left of edges that do not close.
-    Left,
-    /// On the right of them.
-    Right,
-    /// On the edges: the tip goes along them.
-    On,
-}
-
-impl EdgeSide {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Outside => "outside",
-            Self::Inside => "inside",
-            Self::Left => "left",
-            Self::Right => "right",
-            Self::On => "on",
-        }
-    }
-
-    /// Of a line that closes counterclockwise, or does not close; none where the tool is on it.
-    pub(super) fn beside(self) -> Option<Beside> {
-        match self {
-            Self::Outside | Self::Right => Some(Beside::Right),
-            Self::Inside | Self::Left => Some(Beside::Left),
-            Self::On => None,
-        }
-    }
-
-    fn fits(self, closed: bool) -> bool {
-        match self {
-            Self::Outside | Self::Inside => closed,
-            Self::Left | Self::Right => !closed,
-            Self::On => true,
-        }
-    }
-}
-
-/// A level on which a line is followed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Level {
-    /// Height of the tip, mm.
-    pub tip: f64,
-    /// Stock that stays on the wall, mm.
-    pub left: f64,
-}
-
-/// A line with the levels on which it is followed.
-pub(super) struct Work {
-    pub line: EdgeLine,
-    /// From the top down; the finish pass last.
-    pub levels: Vec<Level>,
-    /// Height at which the operation begins: that of the stock, mm.
-    pub begins: f64,
-}
-
-impl Work {
-    pub fn plan_line(&self) -> PlanLine {
-        PlanLine { corners: self.line.corners(), closed: self.line.closed }
-    }
-
-    /// The highest point of the upright plane that the tool touches, mm.
-    fn plane_top(&self) -> f64 {
-        self.line.top().max(self.begins)
-    }
-
-    /// How far the axis is from the line on a level, mm.
-    pub fn distance(&self, cutter: &Cutter, side: EdgeSide, level: Level) -> f64 {
-        match side.beside() {
-            Some(_) => cutter.at_height((self.plane_top() - level.tip).max(0.0)).0 + level.left,
-            None => 0.0,
-        }
-    }
-}
-
 impl Contour {
     pub(super) const ABOUT: About = About {
         purpose: "for walls along named edges, and grooves on them",
@@ -149,7 +68,7 @@ impl Contour {
     };
 
     /// Height over length of ramps; none where the tool goes straight down.
-    pub(super) fn slope(&self) -> Option<f64> {
+    fn slope(&self) -> Option<f64> {
         (!self.plunge).then(|| libm::tan(self.entry_angle_deg.to_radians()))
     }
 
@@ -175,18 +94,14 @@ impl Contour {
     }
 
     /// What is milled; `path` is the operation's.
-    pub(super) fn work(&self, given: &PassContext<'_>, path: &str) -> Result<Vec<Work>, JobError> {
+    fn work(&self, given: &PassContext<'_>, path: &str) -> Result<Vec<Work>, JobError> {
         let lines = self.lines(given, path)?;
         if let Some(line) = lines.iter().find(|line| !self.edge_side.fits(line.closed)) {
             let (kind, words) = match line.closed {
                 true => ("close", "\"outside\", \"inside\" or \"on\""),
                 false => ("do not close", "\"left\", \"right\" or \"on\", seen from the first named edge on"),
             };
-            let message = format!(
-                "edge_side = \"{}\", and the edges {kind}: {}",
-                self.edge_side.word(),
-                line.name()
-            );
+            let message = format!("edge_side = \"{}\", and the edges {kind}: {}", self.edge_side.word(), line.name());
             let hint = format!("set edge_side to {words}");
             return Err(JobError::document("wrong-side", format!("{path}.edge_side"), message, hint));
         }
@@ -276,7 +191,8 @@ impl OperationKind for Contour {
             ("edges", common.edges.is_some()),
         ];
         keys::refuse(&refused, path, |key| {
-            let message = format!("a contour does not follow {key}: it goes along edges until something else is in its path");
+            let message =
+                format!("a contour does not follow {key}: it goes along edges until something else is in its path");
             (message, format!("remove {key}; which edges are followed is stated by edge_names"))
         })?;
         self.tabs.map_or(Ok(()), |tabs| tabs.check(path))
@@ -296,7 +212,10 @@ impl OperationKind for Contour {
     }
 
     fn plan(&self, context: &Context<'_>) -> Result<Planned, JobError> {
-        contour_passes::planned(self, context)
+        let body = context.tool.body(None);
+        let works = self.work(&PassContext::of(context, &body), &context.path)?;
+        let rule = Rule { side: self.edge_side, slope: self.slope(), tabs: self.tabs };
+        contour_passes::planned(rule, &works, context)
     }
 
     fn tabs(&self) -> Option<Tabs> {
@@ -329,10 +248,7 @@ impl OperationKind for Contour {
                 .line
                 .pieces
                 .iter()
-                .map(|piece| ContourPiece {
-                    name: piece.name.clone(),
-                    ends: piece.ends.map(|end| [end.x, end.y]),
-                })
+                .map(|piece| ContourPiece { name: piece.name.clone(), ends: piece.ends.map(|end| [end.x, end.y]) })
                 .collect(),
             plane_top: work.plane_top(),
             begins: work.begins,

@@ -10,11 +10,11 @@ use styluscam_toolpath::contouring::{descent, Beside};
 use styluscam_toolpath::offset::Envelope;
 use styluscam_toolpath::{AlongSurface, Entered, Heights, Links, Pass, PathPoint, Rates, Seam, Sense, Surface};
 
-use super::contour::{Contour, Level, Work};
+use super::contour_work::{Level, Rule, Work};
 use super::facts::{self, counted};
 use super::in_order::in_order;
 use super::surface::sense;
-use super::{budget, corners, links, Context, Fact, Fit, PassContext, Planned};
+use super::{budget, corners, links, Context, Fact, Fit, Planned};
 use crate::JobError;
 
 /// Heights that differ by less are the same, mm.
@@ -34,7 +34,7 @@ const ACROSS: f64 = 1.0;
 
 /// What paths are laid with.
 struct Laying<'a> {
-    kind: &'a Contour,
+    rule: Rule,
     context: &'a Context<'a>,
     cutter: Cutter,
     room: Room<'a>,
@@ -64,18 +64,16 @@ struct Laid {
 type Stack = Vec<Laid>;
 
 /// Plans a contour's moves.
-pub(super) fn planned(kind: &Contour, context: &Context<'_>) -> Result<Planned, JobError> {
+pub(super) fn planned(rule: Rule, works: &[Work], context: &Context<'_>) -> Result<Planned, JobError> {
     if context.region.check.is_some() {
         let message = "part.check_faces are not kept away from by a contour";
         return Err(JobError::document("conflict", context.path.clone(), message, "remove part.check_faces"));
     }
     let budget = budget::of(context.common.tolerance, context.scene, context.machine);
     let budget = budget.map_err(|error| context.error(error))?;
-    let body = context.tool.body(None);
-    let works = kind.work(&PassContext::of(context, &body), &context.path)?;
-    let laying = Laying::new(kind, context, &budget);
+    let laying = Laying::new(rule, context, &budget);
     let (mut stacks, mut missed) = (Vec::new(), BTreeMap::new());
-    for work in &works {
+    for work in works {
         stacks.extend(laying.stacks(work)?);
         laying.missed(work, &mut missed);
     }
@@ -90,11 +88,11 @@ pub(super) fn planned(kind: &Contour, context: &Context<'_>) -> Result<Planned, 
 }
 
 impl<'a> Laying<'a> {
-    fn new(kind: &'a Contour, context: &'a Context<'a>, budget: &Budget) -> Self {
+    fn new(rule: Rule, context: &'a Context<'a>, budget: &Budget) -> Self {
         let share = if context.common.fit == Fit::Arcs { CHORDS[0] } else { CHORDS[1] };
-        let material_on_right = kind.edge_side.beside() != Some(Beside::Right);
+        let material_on_right = rule.side.beside() != Some(Beside::Right);
         Self {
-            kind,
+            rule,
             context,
             cutter: context.tool.cutter(),
             room: Room::new(context, budget.margin - budget.deviation),
@@ -110,8 +108,8 @@ impl<'a> Laying<'a> {
         let mut parallels: BTreeMap<u64, Vec<Stretch>> = BTreeMap::new();
         let mut stacks: Vec<Stack> = Vec::new();
         for (number, level) in work.levels.iter().enumerate() {
-            let distance = work.distance(&self.cutter, self.kind.edge_side, *level);
-            let all = parallels.entry(distance.to_bits()).or_insert_with(|| match self.kind.edge_side.beside() {
+            let distance = work.distance(&self.cutter, self.rule.side, *level);
+            let all = parallels.entry(distance.to_bits()).or_insert_with(|| match self.rule.side.beside() {
                 Some(side) => line.parallels(side, distance + self.margin, self.tolerance),
                 None => vec![line.path()],
             });
@@ -161,12 +159,12 @@ impl<'a> Laying<'a> {
     /// Adds the length of each edge beside which the tool is not free on the lowest level, by its name, mm.
     fn missed(&self, work: &Work, missed: &mut BTreeMap<String, f64>) {
         let Some(level) = work.levels.last() else { return };
-        let side = match self.kind.edge_side.beside() {
+        let side = match self.rule.side.beside() {
             Some(Beside::Left) => 1.0,
             Some(Beside::Right) => -1.0,
             None => 0.0,
         };
-        let distance = side * (work.distance(&self.cutter, self.kind.edge_side, *level) + self.margin);
+        let distance = side * (work.distance(&self.cutter, self.rule.side, *level) + self.margin);
         for piece in &work.line.pieces {
             let (from, way) = (piece.ends[0], piece.ends[1] - piece.ends[0]);
             let length = way.norm();
@@ -189,7 +187,7 @@ impl<'a> Laying<'a> {
             let mut end: Option<PathPoint> = None;
             for laid in stack {
                 let is_beside = laid.path.points.iter().all(|point| self.is_beside_stock(*point));
-                let Some(slope) = self.kind.slope().filter(|_| !is_beside) else {
+                let Some(slope) = self.rule.slope.filter(|_| !is_beside) else {
                     let pass = self.pass(&laid.path, laid);
                     end = pass.points.last().copied();
                     entered.push(Entered::from(pass));
@@ -235,7 +233,7 @@ impl<'a> Laying<'a> {
 
     /// Tips with the direction away from the edge.
     fn points(&self, tips: &[Vector], is_turned: bool) -> Vec<PathPoint> {
-        let side = match self.kind.edge_side.beside() {
+        let side = match self.rule.side.beside() {
             Some(Beside::Left) => 1.0,
             Some(Beside::Right) => -1.0,
             None => 0.0,
@@ -279,7 +277,7 @@ impl<'a> Laying<'a> {
         };
         let entered = self.entered(stacks);
         let passes: Vec<Pass> = entered.iter().map(|entered| entered.pass.clone()).collect();
-        let tabs = self.kind.tabs.map(|tabs| tabs.planned(context, &passes)).transpose()?;
+        let tabs = self.rule.tabs.map(|tabs| tabs.planned(context, &passes)).transpose()?;
         let (moves, linked) = links::linked(context, (entered, Seam::Nearest, ARCS * budget.deviation), along, &rules)?;
         let mut facts = self.facts(stacks, across);
         facts.extend(linked);

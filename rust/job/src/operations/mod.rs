@@ -19,6 +19,7 @@ pub(crate) mod budget;
 mod clears;
 mod context;
 mod contour_passes;
+mod contour_work;
 mod corners;
 mod effort;
 mod entry;
