@@ -142,7 +142,7 @@ pub(crate) fn lines_of_edges(
             return Err(JobError::document("no-edge", at(number), message, "name edges at which faces meet"));
         }
     }
-    joined(pieces, &named, path)
+    joined(&pieces, &named, path)
 }
 
 fn length([a, b]: [Vector; 2]) -> f64 {
@@ -234,7 +234,7 @@ impl Named {
 
 /// Pieces in the order in which they follow each other: open lines from the first named edge on, which alone runs as its curve does; closed ones
 /// counterclockwise.
-fn joined(pieces: Vec<(usize, LinePiece)>, named: &Named, path: &str) -> Result<Vec<EdgeLine>, JobError> {
+fn joined(pieces: &[(usize, LinePiece)], named: &Named, path: &str) -> Result<Vec<EdgeLine>, JobError> {
     let mut meeting: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
     for (number, (_, piece)) in pieces.iter().enumerate() {
         for end in piece.ends {

@@ -17,6 +17,8 @@ const SAMPLE: f64 = 0.25;
 const MOST_SAMPLES: f64 = 400.0;
 /// First rise over the samples that is tried, mm; each further one is twice as high.
 const RISE: f64 = 0.01;
+/// Height over either end of a link that goes straight at a feed, at most, as a share of its length: it goes down steeply, if not far.
+const DROP: f64 = 0.1;
 /// Loops before a link that are asked whether they enclose it, at most: parts that are formed side by side are in the same few
 /// levels.
 const LOOPS: usize = 4096;
@@ -73,11 +75,11 @@ impl<'a> Standing<'a> {
     }
 
     /// The straight way at a feed from one tip to another, over the part and the check faces alone: up, across and down. None where
-    /// more than the distance in plan would be in height, or nothing is proven to be under it.
+    /// it would be higher over either than a share of the distance in plan, or nothing is proven to be under it.
     fn across(&self, [from, to]: [Vector; 2], feed: f64) -> Option<Vec<Segment>> {
-        let distance = (to - from).xy().norm();
-        let height = self.part([from, to], from.z.min(to.z) + distance);
-        if height >= from.z.min(to.z) + distance {
+        let highest = from.z.min(to.z) + DROP * (to - from).xy().norm();
+        let height = self.part([from, to], highest);
+        if height >= highest {
             return None;
         }
         let at = |end: Vector| Vector::new(end.x, end.y, height);

@@ -337,7 +337,8 @@ impl Look<'_> {
             let on = line.levels.iter().filter(|level| own.is_on(level.tip)).map(|level| level.left);
             on.reduce(f64::min).unwrap_or(0.0)
         };
-        let widest = line.levels.iter().map(|level| self.radius(line, level.tip) + level.left).fold(0.0, f64::max);
+        // whatever the height of a move
+        let widest = self.cutter.max_radius() + line.levels.iter().map(|level| level.left).fold(0.0, f64::max);
         let mut worst: Option<Fault> = None;
         for piece in &line.pieces {
             for (at, _) in positions(piece) {
@@ -368,8 +369,11 @@ impl Look<'_> {
             let Segment { start, end, kind, .. } = *own.segment;
             let start = start.filter(|_| own.is_feed() && own.role != Some(Role::Lead))?;
             let fall = start[2].min(begins) - end[2];
-            let run =
+            let whole =
                 own.segment.bend.map_or_else(|| apart([start[0], start[1]], [end[0], end[1]]), |bend| bend.length());
+            // of moves that begin in the air what is below counts
+            let share = if fall > 0.0 { fall / (start[2] - end[2]) } else { 1.0 };
+            let run = share * whole;
             let is_steep = fall - 2.0 * unit > most * (run + 2.0 * unit);
             let is_down = kind == SegmentKind::Plunge;
             if !is_steep || self.is_beside_stock(own) || (is_down && self.is_cleared(number, end)) {
@@ -388,7 +392,12 @@ impl Look<'_> {
         let is_out = |[x, y]: [f64; 2]| {
             libm::hypot((low.x - x).max(x - high.x).max(0.0), (low.y - y).max(y - high.y).max(0.0)) >= radius
         };
-        own.chords().iter().all(|chord| is_out(chord.from) && is_out(chord.to))
+        let along = |chord: &Line<[f64; 2]>| {
+            let count = (2.0 * apart(chord.from, chord.to) / self.cutter.max_radius()).ceil().clamp(1.0, MOST as f64);
+            let at = |i: usize| [0, 1].map(|k| chord.from[k] + (chord.to[k] - chord.from[k]) * i as f64 / count);
+            (0..=count as usize).all(|i| is_out(at(i)))
+        };
+        own.chords().iter().all(along)
     }
 
     /// Whether moves before one went as low, or lower, where it ends.

@@ -72,18 +72,24 @@ pub(super) fn planned(rule: Rule, works: &[Work], context: &Context<'_>) -> Resu
     let budget = budget::of(context.common.tolerance, context.scene, context.machine);
     let budget = budget.map_err(|error| context.error(error))?;
     let laying = Laying::new(rule, context, &budget);
-    let (mut stacks, mut missed) = (Vec::new(), BTreeMap::new());
+    let (mut lines, mut missed) = (Vec::new(), BTreeMap::new());
     for work in works {
-        stacks.extend(laying.stacks(work)?);
+        lines.push(laying.stacks(work)?);
         laying.missed(work, &mut missed);
     }
-    if stacks.is_empty() {
+    lines.retain(|stacks| !stacks.is_empty());
+    if lines.is_empty() {
         let message = "the tool can go along none of the edges without entering what is beside them";
         let hint = "take a smaller tool, set another edge_side, or raise z_bottom";
         return Err(JobError::document("no-room", format!("{}.tool", context.path), message, hint));
     }
-    let begin = |stack: &Stack| stack.first().and_then(|laid| laid.path.points.first()).copied().unwrap_or_default();
-    let (stacks, across) = in_order(context, &stacks, begin)?;
+    let begin = |stacks: &Vec<Stack>| {
+        let first = stacks.first().and_then(|stack| stack.first()).and_then(|laid| laid.path.points.first());
+        first.copied().unwrap_or_default()
+    };
+    // those of a line stay in their order, from the top down
+    let (lines, across) = in_order(context, &lines, begin)?;
+    let stacks = lines.concat();
     laying.moved(&stacks, (&budget, across), &missed, works.len())
 }
 
