@@ -12,8 +12,8 @@ COPIES = CHECKOUT / "target" / "howto"
 """Where copies are, one for each page: what did not change since the last run need not be checked again."""
 TARGET = CHECKOUT / "target"
 """Where cargo builds all copies: what the engine depends on is compiled there for its own tests."""
-UNOPTIMISED = "[profile.dev]\nopt-level = 1", "[profile.dev]\nopt-level = 0"
-"""A copy is to be built soon and not to run fast; what it depends on stays as it is, and is built already."""
+SOON = ("--config", "profile.dev.opt-level=0")
+"""For what is to be built soon and not to run fast; what it depends on has a level of its own, and is built already."""
 
 
 def patched(text: str, diff: str) -> str:
@@ -53,8 +53,7 @@ class Change:
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(CHECKOUT / "rust", folder / self.name)
         manifest = (CHECKOUT / "Cargo.toml").read_text(encoding="utf-8")
-        manifest = manifest.replace('"rust/', f'"{self.name}/').replace(UNOPTIMISED[0], UNOPTIMISED[1])
-        (folder / "Cargo.toml").write_text(manifest, encoding="utf-8")
+        (folder / "Cargo.toml").write_text(manifest.replace('"rust/', f'"{self.name}/'), encoding="utf-8")
         shutil.copy2(CHECKOUT / "Cargo.lock", folder)
         for file, text in self.files.items():
             (folder / self.name / file.removeprefix("rust/")).write_text(text, encoding="utf-8")
@@ -72,6 +71,6 @@ class Change:
 
 def run_cargo(folder: Path, *words: str) -> None:
     """Runs cargo in a copy; neither an error nor a warning may come of it."""
-    command = ["cargo", *words, "--quiet", "--offline", "--target-dir", str(TARGET)]
+    command = ["cargo", *words, *SOON, "--quiet", "--offline", "--target-dir", str(TARGET)]
     ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert ran.returncode == 0 and "warning" not in ran.stderr, ran.stderr + ran.stdout

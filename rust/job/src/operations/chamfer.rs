@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::{chamfered, check_chamfers, ChamferEdge, ChamferSize, Mesh, NurbsCurve, ToolBody, Vector};
+use styluscam_geometry::{chamfered, check_chamfers, ChamferEdge, ChamferSize, NurbsCurve, ToolBody, Vector};
 use styluscam_motion::{Move, Role, SpindleDirection};
 use styluscam_toolpath::chamfer::{followed, stretches, Edge, Stretch};
-use styluscam_toolpath::offset::{Envelope, Index};
+use styluscam_toolpath::offset::Index;
 use styluscam_verify::{ChamferedEdge, Chamfering, Contact, Passes};
 
 use super::budget;
@@ -15,6 +15,7 @@ use super::facts::{self, counted};
 use super::in_order::in_order;
 use super::keys;
 use super::rails;
+use super::room::Room;
 use super::{
     About, Areas, Context, Direction, Effort, Fact, Fit, LeadForm, LinkHeight, OperationKind, PassContext, PassSpacing,
     Planned, Serves,
@@ -300,28 +301,6 @@ impl OperationKind for Chamfer {
 fn margin(context: &Context<'_>) -> Result<f64, JobError> {
     budget::of(context.common.tolerance, context.scene, context.machine).map_err(|error| context.error(error))?;
     Ok(context.scene.inward + (budget::rounding(context.machine) - 0.9 * GOUGE).max(0.0))
-}
-
-/// Where the tool is free beside the part as it is to be made.
-struct Room<'a> {
-    /// Of the tool's profile, and of what is above it.
-    envelopes: Vec<Envelope<'a>>,
-    /// The lowest height of the tip, mm.
-    lowest: f64,
-}
-
-impl<'a> Room<'a> {
-    fn new(context: &'a Context<'_>, (shape, index): (&'a Mesh, &'a Index), margin: f64) -> Self {
-        let scene = context.scene;
-        let above = context.tool.bodies_above(None).into_iter();
-        let above = above.map(|(_, solid)| Envelope::of_body(&scene.mesh, &scene.index, solid.grown(margin)));
-        let profile = Envelope::new(shape, index, context.tool, None, margin);
-        Self { envelopes: std::iter::once(profile).chain(above).collect(), lowest: context.heights.bottom }
-    }
-
-    fn is_free(&self, [x, y, z]: [f64; 3]) -> bool {
-        z >= self.lowest - SAME && !self.envelopes.iter().any(|envelope| envelope.is_over(x, y, z + SAME, &mut None))
-    }
 }
 
 /// A chain as the tool goes along it: in the direction of its pieces, with the level face on the left, or back.

@@ -13,6 +13,7 @@ use styluscam_toolpath::{AlongSurface, Entered, Heights, Links, Pass, PathPoint,
 use super::contour_work::{Level, Rule, Work};
 use super::facts::{self, counted};
 use super::in_order::in_order;
+use super::room::Room;
 use super::surface::sense;
 use super::{budget, corners, links, Context, Fact, Fit, Planned};
 use crate::JobError;
@@ -89,19 +90,20 @@ pub(super) fn planned(rule: Rule, works: &[Work], context: &Context<'_>) -> Resu
     };
     // those of a line stay in their order, from the top down
     let (lines, across) = in_order(context, &lines, begin)?;
-    let stacks = lines.concat();
+    let stacks: Vec<Stack> = lines.into_iter().flatten().collect();
     laying.moved(&stacks, (&budget, across), &missed, works.len())
 }
 
 impl<'a> Laying<'a> {
     fn new(rule: Rule, context: &'a Context<'a>, budget: &Budget) -> Self {
         let share = if context.common.fit == Fit::Arcs { CHORDS[0] } else { CHORDS[1] };
+        let margin = budget.margin - budget.deviation;
         let material_on_right = rule.side.beside() != Some(Beside::Right);
         Self {
             rule,
             context,
             cutter: context.tool.cutter(),
-            room: Room::new(context, budget.margin - budget.deviation),
+            room: Room::new(context, (&context.scene.mesh, &context.scene.index), margin).standing(margin),
             tolerance: share * budget.deviation,
             margin: budget.margin,
             sense: sense(context.common, material_on_right),
@@ -159,7 +161,15 @@ impl<'a> Laying<'a> {
         }
         let begin = path.points.first().copied()?;
         let is_short = apart(begin, end) <= ACROSS * self.cutter.max_radius();
-        (is_short && self.room.is_free_between([end, begin], tip)).then_some(path)
+        (is_short && self.is_free_between([end, begin], tip)).then_some(path)
+    }
+
+    fn is_free_between(&self, [a, b]: [[f64; 2]; 2], z: f64) -> bool {
+        let count = (apart(a, b) / APART).ceil().max(1.0) as usize;
+        (0..=count).all(|i| {
+            let share = i as f64 / count as f64;
+            self.room.is_free([a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), z])
+        })
     }
 
     /// Adds the length of each edge beside which the tool is not free on the lowest level, by its name, mm.
@@ -320,39 +330,6 @@ impl<'a> Laying<'a> {
             facts.push(Fact::length("across", across, "across from line to line"));
         }
         facts
-    }
-}
-
-/// Where the tool is free of the part.
-struct Room<'a> {
-    /// Of the tool's profile, and of what is above it.
-    envelopes: Vec<Envelope<'a>>,
-    /// What they are grown by, mm: level floors are stood on all the same.
-    margin: f64,
-    /// The lowest height of the tip, mm.
-    lowest: f64,
-}
-
-impl<'a> Room<'a> {
-    fn new(context: &'a Context<'_>, margin: f64) -> Self {
-        let scene = context.scene;
-        let above = context.tool.bodies_above(None).into_iter();
-        let above = above.map(|(_, solid)| Envelope::of_body(&scene.mesh, &scene.index, solid.grown(margin)));
-        let profile = Envelope::new(&scene.mesh, &scene.index, context.tool, None, margin);
-        Self { envelopes: std::iter::once(profile).chain(above).collect(), margin, lowest: context.heights.bottom }
-    }
-
-    fn is_free(&self, [x, y, z]: [f64; 3]) -> bool {
-        let height = z + self.margin + SAME;
-        z >= self.lowest - SAME && !self.envelopes.iter().any(|envelope| envelope.is_over(x, y, height, &mut None))
-    }
-
-    fn is_free_between(&self, [a, b]: [[f64; 2]; 2], z: f64) -> bool {
-        let count = (apart(a, b) / APART).ceil().max(1.0) as usize;
-        (0..=count).all(|i| {
-            let share = i as f64 / count as f64;
-            self.is_free([a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), z])
-        })
     }
 }
 

@@ -33,6 +33,7 @@ mod links;
 mod rails;
 mod reached;
 mod repeated;
+mod room;
 mod step;
 mod surface;
 mod tabs;
