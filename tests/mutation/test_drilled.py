@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import Any
 
 import pytest
 
 import styluscam as sc
-from gcode import Move, read
+from gcode import Move
 
 from .cases import stack
+from .edits import assert_found
 
 DEPTH, PECK, RADIUS = 6.0, 2.0, 2.5
 NEAR = 0.02
@@ -70,42 +70,8 @@ def harm(moves: list[Move], peck: float) -> str:
     return "not drilled to its depth" if drilled > -DEPTH + NEAR else ""
 
 
-def edits(text: str) -> list[str]:
-    """Texts with one word changed, or one line left out."""
-    lines = text.splitlines()
-    made = []
-    for number, line in enumerate(lines):
-        others = [""]
-        for word in re.finditer(r"\b([XYZ])(-?[\d.]+)", line):
-            value = float(word[2])
-            changed = [value + 0.1, value - 0.1, value + 1.5, value - 1.5, -value, 10 * value, value / 10]
-            others += [f"{line[: word.start()]}{word[1]}{new:.3f}{line[word.end() :]}" for new in changed]
-        if re.search(r"\bG[01]\b", line):
-            others.append(re.sub(r"\bG([01])\b", lambda code: f"G{1 - int(code[1])}", line))
-        made += ["\n".join([*lines[:number], other, *lines[number + 1 :], ""]) for other in others]
-    return made
-
-
 @pytest.mark.parametrize("kind", ["drill", "peck", "chip-break"])
 def test_every_edit_that_matters_is_found(kind: str) -> None:
     cycle = {"kind": kind} if kind == "drill" else {"kind": kind, "peck": PECK}
-    asked, peck = job(cycle), math.inf if kind == "drill" else PECK
-    text = sc.post(sc.plan(asked)).text
-    assert sc.verify(text, asked).ok and harm(read(text, "grbl").moves, peck) == ""
-    matter = {edit: harm(read(edit, "grbl").moves, peck) for edit in edits(text)}
-    matter = {edit: reason for edit, reason in matter.items() if reason}
-    assert len(matter) >= (LEAST if kind != "drill" else LEAST // 3)
-    missed = []
-    for edit, reason in matter.items():
-        try:
-            found = any(finding["severity"] == "error" for finding in sc.verify(edit, asked).findings)
-        except sc.StylusError:
-            continue
-        if not found:
-            missed.append(
-                (
-                    reason,
-                    [pair for pair in zip(text.splitlines(), edit.splitlines(), strict=False) if len(set(pair)) > 1],
-                )
-            )
-    assert missed == []
+    peck = math.inf if kind == "drill" else PECK
+    assert_found(job(cycle), lambda moves: harm(moves, peck), LEAST if kind != "drill" else LEAST // 3)

@@ -410,6 +410,59 @@ def test_a_plunge_into_the_stock_is_found() -> None:
     assert "steep-entry" in kinds(steep, job(RIM, "inside"))
 
 
+@pytest.mark.parametrize("direction", ["climb", "conventional", "alternate"])
+def test_every_edge_is_milled_from_the_top_down_and_finished_last(direction: str) -> None:
+    keys = {"radial_stock_to_leave": 0.3, "finish": True, "direction": direction, "setup": STOCK}
+    asked = job([FRONT, RIM[0]], "right", **keys)
+    text = text_of(asked)
+    assert kinds(text, asked) <= {"unreached"}
+    ends = sc.read_gcode(text, "linuxcnc").moves["end"]
+    passes = ends[1:][(np.abs(np.diff(ends[:, 2])) < 1e-6) & (ends[1:, 2] < BOSS_TOP)]
+    for side, axis in ((passes[passes[:, 1] < 0.0], -3.0), (passes[passes[:, 1] > 0.0], POCKET[0][1] + 3.0)):
+        assert len(side) > 4 and (np.diff(side[:, 2]) <= 1e-6).all()
+        assert np.abs(side[[0, -1], 1] - axis) == pytest.approx([0.3, 0.0], abs=OFF)
+
+
+def entering(text: str, *moves: str) -> str:
+    """The text with feeds before its first way down into the stock."""
+    return text.replace(
+        "\nG1 Z18.2 F200\n", "\n" + "\n".join([*moves, "G0 Z32", "X40 Y-3.002", "G1 Z18.2 F200", ""]), 1
+    )
+
+
+@pytest.mark.parametrize(
+    "moves",
+    [
+        # from the air, the last 3.75 mm of 30 through 2 mm of stock
+        ["G1 X10 Y-3.002 Z16 F200"],
+        # through the stock from beside it to beside it
+        ["G0 X-30 Y-3.002", "G1 Z18.2 F200", "X110 Z0 F600"],
+        # called a lead
+        ["(role lead)", "G1 X10 Y-3.002 Z16 F200", "(role none)"],
+    ],
+)
+def test_a_steep_way_through_the_stock_is_found(moves: list[str]) -> None:
+    asked = job(OUTLINE, "outside", setup=STOCK)
+    text = text_of(asked)
+    spoilt = entering(text, *moves)
+    assert spoilt != text and "steep-entry" in kinds(spoilt, asked)
+
+
+def test_what_is_nearer_to_an_edge_below_all_levels_is_found() -> None:
+    # over the part, into which it does not go
+    asked = job([FRONT], "right", z_top=14.0, z_bottom=13.0)
+    text = text_of(asked)
+    spoilt = text.replace("\nM5\n", "\nG0 X40 Y-1\nZ14\nG1 Z12.5 F200\nG0 Z48\nM5\n", 1)
+    assert kinds(text, asked) == set() and "gouge" in kinds(spoilt, asked)
+
+
+def test_ramps_leave_the_stock_that_is_to_stay() -> None:
+    asked = job(OUTLINE, "outside", setup=STOCK, radial_stock_to_leave=0.3)
+    text = text_of(asked)
+    spoilt = text.replace("\nX0 Z", "\nX0 Y-3.2 Z", 1)
+    assert spoilt != text and kinds(text, asked) == set() and "stock-to-leave" in kinds(spoilt, asked)
+
+
 def plate(path: Path, seed: int, hole: bool) -> list[np.ndarray]:
     """Writes a plate of Z0 to Z8 with a random border, or one with a random opening; the border in points, mm."""
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut

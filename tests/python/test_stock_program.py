@@ -196,3 +196,10 @@ def test_a_program_that_does_not_fit_is_refused(
         sc.plan(written(folder, "itself", document(LEFT | stock, REST, **setup)))
     assert refused.value.code == code and refused.value.hint
     assert where is None or refused.value.where == where
+
+
+@pytest.mark.parametrize(("begins", "found"), [(4.5, set()), (3.5, {"stock-above"})])
+def test_what_it_took_does_not_stand_above_what_begins_there(folder: Path, begins: float, found: set[str]) -> None:
+    deeper = ROUGH | {"id": "deeper", "z_top": begins, "z_bottom": 2.5}
+    asked = written(folder, f"deeper-{begins}", document(LEFT, deeper))
+    assert kinds(asked, text_of(asked).splitlines()) == found

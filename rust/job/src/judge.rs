@@ -81,6 +81,7 @@ impl<'a> Against<'a> {
             tools: &self.tools,
             sheet: self.scene.sheet,
             stock: self.scene.stock.as_ref(),
+            stock_is_stated: self.scene.stock_words.is_some(),
             before: self.scene.earlier.as_deref().map(|earlier| &earlier.cut),
             deviation_inward: self.scene.inward,
             deviation_outward: self.scene.outward,

@@ -333,9 +333,11 @@ impl Look<'_> {
             return None;
         }
         let axes = self.axes(|own| own.is_feed() && own.segment.lowest() < line.plane_top - SLACK);
+        // between levels a move takes no more than the one that takes most
+        let least = line.levels.iter().map(|level| level.left).fold(f64::INFINITY, f64::min);
         let left = |own: &Own<'_>| {
             let on = line.levels.iter().filter(|level| own.is_on(level.tip)).map(|level| level.left);
-            on.reduce(f64::min).unwrap_or(0.0)
+            on.reduce(f64::min).unwrap_or(least)
         };
         // whatever the height of a move
         let widest = self.cutter.max_radius() + line.levels.iter().map(|level| level.left).fold(0.0, f64::max);
@@ -367,7 +369,7 @@ impl Look<'_> {
         let unit = self.limits.unit;
         let steep = |(number, own): (usize, &Own<'_>)| {
             let Segment { start, end, kind, .. } = *own.segment;
-            let start = start.filter(|_| own.is_feed() && own.role != Some(Role::Lead))?;
+            let start = start.filter(|_| own.is_feed())?;
             let fall = start[2].min(begins) - end[2];
             let whole =
                 own.segment.bend.map_or_else(|| apart([start[0], start[1]], [end[0], end[1]]), |bend| bend.length());

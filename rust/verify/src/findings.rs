@@ -77,6 +77,8 @@ pub enum FindingKind {
     SteepEntry,
     /// A rapid enters stock that is not cleared.
     RapidIntoStock,
+    /// Stock stands above the height at which an operation begins.
+    StockAbove,
     /// Neighbouring passes leave a higher scallop than is asked for.
     Scallop,
     /// The path turns by more at once than is asked for.
@@ -222,6 +224,7 @@ const KINDS: [(FindingKind, &str); FindingKind::NotChecked as usize + 1] = {
         (Kind::RemovalRate, "removal rate above the reference"),
         (Kind::SteepEntry, "entry into stock too steep"),
         (Kind::RapidIntoStock, "rapid into stock"),
+        (Kind::StockAbove, "stock above the operation"),
         (Kind::Scallop, "scallop above the limit"),
         (Kind::Corner, "corner of the path"),
         (Kind::AxisJump, "jump of the tool axis"),

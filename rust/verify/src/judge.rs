@@ -15,7 +15,7 @@ use crate::subject::{Axes, Limits, Subject};
 use crate::tally::Tally;
 use crate::{
     bored, chamfered, clearing, contoured, corner_angles, corners, covered, diagnosis, frame, holes, leaning,
-    low_links, pair, passes, reach, sequence, settings, tabs, travel, unreached, walls,
+    low_links, pair, passes, reach, sequence, settings, stock_above, tabs, travel, unreached, walls,
 };
 
 /// Checks a program read back from posted text against the part.
@@ -116,6 +116,7 @@ fn of_passes(
     faults.extend(holes::faults(segments, subject, limits));
     faults.extend(bored::faults(program, segments, subject, limits));
     faults.extend(covered::faults(segments, assignment, subject, limits, watch)?);
+    faults.extend(stock_above::faults(segments, subject, limits, watch)?);
     Ok(faults)
 }
 

@@ -23,6 +23,8 @@ pub struct Subject<'a> {
     pub sheet: Option<Sheet>,
     /// What the part is cut from, where it is.
     pub stock: Option<&'a Stock>,
+    /// Whether the job states that; else it is the part's box, and material may be missing in it.
+    pub stock_is_stated: bool,
     /// What earlier programs have cut of it.
     pub before: Option<&'a Before>,
     /// How far the triangles lie inside the true surface at most, mm: taken off every clearance

@@ -41,7 +41,8 @@ pub struct OperationKeys {
     /// The channel whose program does it, where the process has several; "main" when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channel: Option<String>,
-    /// Height at which the operation begins, mm in work coordinates; the selected faces' top when left out.
+    /// Height at which the operation begins, mm in work coordinates: what stands above is cut before. The top of the stock or of the part when
+    /// left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-not-of" = ["flank", "chamfer"], "x-unit" = "mm", "minimum" = -10000.0, "maximum" = 10000.0))]
     pub z_top: Option<f64>,

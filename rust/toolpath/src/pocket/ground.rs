@@ -24,8 +24,8 @@ const BEYOND: f64 = 2.5;
 const FAR: f64 = 26.0;
 /// Angle of the chords of the air around a corner of two open edges, rad.
 const CHORD: f64 = 0.2;
-/// Stock that an earlier tool left and that is thinner, in tool radii, is left: it engages 5 degrees.
-const THIN: f64 = 0.004;
+/// Stock that an earlier tool left and that is thinner, in tool radii, is left: it engages 8 degrees.
+const THIN: f64 = 0.01;
 /// But not where something thicker is so near, in tool radii.
 const REACH: f64 = 2.0;
 /// How much less walls beyond an open edge are kept from than all others, mm, so that nothing else is cut off.

@@ -58,3 +58,11 @@ pub(crate) static RAPID_IN_STOCK: FaultKind = FaultKind::on_part(
     "retract first, and come down where the stock is cleared",
 )
 .in_unit("deg");
+
+pub(crate) static STOCK_ABOVE: FaultKind = FaultKind::on_part(
+    FindingKind::StockAbove,
+    |fault| {
+        format!("stock stands above the height at which the operation begins, up to {:.3} mm above it", fault.value())
+    },
+    "raise z_top, or have an operation before it take what stands there",
+);

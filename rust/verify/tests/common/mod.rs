@@ -58,6 +58,7 @@ impl Part {
             tools,
             sheet: None,
             stock: None,
+            stock_is_stated: false,
             before: None,
             deviation_inward: 0.0,
             deviation_outward: 0.0,

@@ -1,0 +1,95 @@
+"""Stock above the height at which an operation begins: found, unless what ran before has taken it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import styluscam as sc
+
+TOP, OVER, SIDES = 10.0, 4.0, 3.0
+BEGINS = 8.0
+"""Of operations that begin below the stock's top, and below the part's."""
+
+
+def block() -> sc.Part:
+    """A block of 40 x 30 x 10 mm."""
+    corners = [[x, y, z] for z in (0.0, TOP) for x, y in ((-20.0, -15.0), (20.0, -15.0), (20.0, 15.0), (-20.0, 15.0))]
+    sides = [[i, (i + 1) % 4, (i + 1) % 4 + 4] for i in range(4)] + [[i, (i + 1) % 4 + 4, i + 4] for i in range(4)]
+    return sc.Part.from_mesh(np.array(corners), np.array([[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], *sides]))
+
+
+def job(*operations: dict[str, Any], stated: bool = True, stock: dict[str, Any] | None = None) -> sc.Job:
+    common = {"tool": "mill", "feeds": {"cut": 600.0, "plunge": 200.0}, "spindle": {"mode": "fixed", "rpm": 8000.0}}
+    stock = stock or {"kind": "box", "top": OVER, "sides": SIDES}
+    document = {
+        "schema": 1,
+        "part": {"file": "block.stl", "units": "mm"},
+        "setup": {"zero": "model"} | ({"stock": stock} if stated else {}),
+        "process": {"kind": "milling"},
+        "tools": {
+            "mill": {"number": 1, "profile": {"kind": "flat", "diameter": 6.0}},
+            "ball": {"number": 2, "profile": {"kind": "ball", "diameter": 6.0}},
+        },
+        "machine": {"name": "linuxcnc"},
+        "operations": [common | {"id": f"of{number}"} | operation for number, operation in enumerate(operations)],
+    }
+    return sc.Job.from_dict(document, part=block())
+
+
+def contour(**keys: Any) -> dict[str, Any]:
+    return {"kind": "contour", "edge_side": "outside", "step": {"height": 3.0}, "faces": "all", **keys}
+
+
+def pocket(**keys: Any) -> dict[str, Any]:
+    return {
+        "kind": "pocket",
+        "clears": "stock",
+        "step": {"height": 3.0},
+        "engagement_deg": 90.0,
+        "faces": "all",
+        **keys,
+    }
+
+
+def kinds(asked: sc.Job) -> set[str]:
+    text = sc.post(sc.plan(asked), "linuxcnc").text
+    return {finding["kind"] for finding in sc.verify(text, asked).to_dict()["findings"]}
+
+
+@pytest.mark.parametrize("operation", [contour, pocket])
+def test_an_operation_that_begins_below_the_stock_is_found(operation: Any) -> None:
+    assert "stock-above" in kinds(job(operation(z_top=BEGINS)))
+    assert "stock-above" not in kinds(job(operation()))
+    # the air that ramps begin with
+    assert "stock-above" not in kinds(job(operation(z_top=TOP + OVER - 0.19)))
+    assert "stock-above" in kinds(job(operation(z_top=TOP + OVER - 0.21)))
+
+
+@pytest.mark.parametrize("operation", [contour, pocket])
+def test_it_is_sound_after_what_takes_the_stock_above(operation: Any) -> None:
+    down = pocket(z_bottom=BEGINS)
+    assert (
+        kinds(
+            job(down, operation(z_top=BEGINS, rest_machining=True) if operation is pocket else operation(z_top=BEGINS))
+        )
+        == set()
+    )
+    # one that ends higher does not help, and one that comes after
+    high = pocket(z_bottom=BEGINS + 1.0)
+    assert "stock-above" in kinds(job(high, contour(z_top=BEGINS)))
+    assert "stock-above" in kinds(job(contour(z_top=BEGINS), down))
+    # nor one that went elsewhere
+    narrow = {"kind": "box", "top": OVER, "sides": SIDES + 12.0}
+    assert "stock-above" in kinds(job(contour(z_bottom=BEGINS), pocket(z_top=BEGINS), stock=narrow))
+
+
+def test_what_a_ball_leaves_between_its_rows_is_stock() -> None:
+    rows = {"kind": "zig-zag", "tool": "ball", "faces": "all", "stepover": 5.9}
+    assert "stock-above" in kinds(job(rows, contour(z_top=TOP)))
+
+
+def test_without_a_stated_stock_nothing_is_known_of_it() -> None:
+    assert "stock-above" not in kinds(job(contour(z_top=BEGINS), stated=False))
