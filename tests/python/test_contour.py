@@ -424,7 +424,7 @@ def test_every_edge_is_milled_from_the_top_down_and_finished_last(direction: str
 
 
 def entering(text: str, *moves: str) -> str:
-    """The text with feeds before its first way down into the stock."""
+    """The text with feeds before its first descent into the stock."""
     return text.replace(
         "\nG1 Z18.2 F200\n", "\n" + "\n".join([*moves, "G0 Z32", "X40 Y-3.002", "G1 Z18.2 F200", ""]), 1
     )
