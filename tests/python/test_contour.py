@@ -401,6 +401,19 @@ def test_without_an_upright_wall_the_depth_has_to_be_stated(tmp_path: Path) -> N
     assert codes == {("missing", "operations[0].z_bottom"), ("not-level", "operations[0].edge_names[0]")}
 
 
+@pytest.mark.parametrize("radius", [300.0, 900.0])
+def test_a_large_circle_is_followed(tmp_path: Path, radius: float) -> None:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder
+    from OCP.STEPControl import STEPControl_AsIs, STEPControl_Writer
+
+    writer = STEPControl_Writer()
+    writer.Transfer(BRepPrimAPI_MakeCylinder(radius, 8.0).Shape(), STEPControl_AsIs)
+    writer.Write(str(tmp_path / "disc.step"))
+    asked = job(["Edge1"], "outside", file=tmp_path / "disc.step", z_bottom=0.0, step={"height": 8.0}, setup=STOCK)
+    beside = np.hypot(*level(text_of(asked), 0.0).T) - radius
+    assert (beside > 3.0 - 0.002).all() and (beside < 3.0 + OFF).all()
+
+
 def test_a_plunge_into_the_stock_is_found() -> None:
     straight = job(RIM, "inside", plunge=True)
     text = text_of(straight)

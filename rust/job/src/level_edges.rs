@@ -14,8 +14,11 @@ const SAME: f64 = 1e-4;
 pub(crate) const MOST_LEAN: f64 = 1.05;
 /// How far a triangle's side lies beside a named edge's curve at most, beyond what its triangles are off, mm.
 pub(crate) const BESIDE: f64 = 0.01;
-/// Chords of a curve to which that is measured.
+/// Chords of a curve to which that is measured, at least and at most.
 const CHORDS: usize = 512;
+const MOST: usize = 65_536;
+/// And what they are off at most, mm.
+const SAG: f64 = 0.002;
 
 /// A straight piece of an edge, with the level face on its left.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,8 +180,19 @@ fn miter(chain: &mut [EdgePiece], closed: bool) {
 /// A curve of the part's file in chords, work coordinates.
 pub(crate) fn chords(scene: &Scene, curve: &NurbsCurve) -> Vec<Vector> {
     let [from, to] = curve.domain();
-    let at = |i: usize| curve.at(from + (to - from) * i as f64 / CHORDS as f64).point;
-    (0..=CHORDS).map(|i| scene.frame.point(at(i))).collect()
+    let points = |count: usize| -> Vec<Vector> {
+        let at = |i: usize| curve.at(from + (to - from) * i as f64 / count as f64).point;
+        (0..=count).map(|i| scene.frame.point(at(i))).collect()
+    };
+    let few = points(CHORDS);
+    let length: f64 = few.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+    // of a circle so many chords are off by no more
+    let count = (0.25 * std::f64::consts::PI * length / SAG).sqrt().ceil() as usize;
+    if count <= CHORDS {
+        few
+    } else {
+        points(count.min(MOST))
+    }
 }
 
 /// How far a point lies beside a line of chords, mm.
