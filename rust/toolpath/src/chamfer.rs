@@ -8,6 +8,8 @@
 use styluscam_geometry::Vector;
 use styluscam_motion::{Cancelled, Watch};
 
+use crate::plan::apart;
+
 /// Ends of neighbouring pieces that lie nearer belong together, mm.
 const JOINED: f64 = 2e-3;
 /// Positions are looked at so far apart at most, mm.
@@ -173,10 +175,6 @@ fn from_middle(stretch: &Stretch) -> Stretch {
     let rest = pieces.iter().cycle().skip(number).take(pieces.len()).map(|piece| piece[1]);
     let points = std::iter::once(middle).chain(rest).chain([middle]).collect();
     Stretch { points, closed: true }
-}
-
-fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
 }
 
 /// An edge, and how far the axis is beside it.

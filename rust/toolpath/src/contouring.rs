@@ -9,6 +9,7 @@
 use styluscam_geometry::Vector;
 
 use crate::chamfer::{straightened, Stretch};
+use crate::plan::apart;
 use crate::pocket::polygons::{sides, signed_area, Kernel, Point, Polygons};
 
 /// Shorter distances are none, mm.
@@ -114,7 +115,7 @@ impl PlanLine {
     /// On which side of an open line a point lies; none beyond its ends.
     fn side_of(&self, point: Point) -> Option<Beside> {
         let last = self.corners.len().checked_sub(2)?;
-        let pieces = self.corners.windows(2).map(|pair| foot(point, [pair[0], pair[1]]));
+        let pieces = self.corners.windows(2).map(|pair| Foot::of(point, [pair[0], pair[1]]));
         let (number, foot) = pieces.enumerate().min_by(|a, b| a.1.apart.total_cmp(&b.1.apart))?;
         let Foot { share, before, beyond, .. } = foot;
         if (number == 0 && before > BEYOND) || (number == last && beyond > BEYOND) {
@@ -146,13 +147,15 @@ struct Foot {
     beyond: f64,
 }
 
-fn foot(point: Point, [a, b]: [Point; 2]) -> Foot {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let length = apart(a, b).max(f64::MIN_POSITIVE);
-    let gone = ((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / length;
-    let share = (gone / length).clamp(0.0, 1.0);
-    let at = between(a, b, share);
-    Foot { at, share, apart: apart(at, point), before: -gone, beyond: gone - length }
+impl Foot {
+    fn of(point: Point, [a, b]: [Point; 2]) -> Self {
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length = apart(a, b).max(f64::MIN_POSITIVE);
+        let gone = ((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / length;
+        let share = (gone / length).clamp(0.0, 1.0);
+        let at = between(a, b, share);
+        Self { at, share, apart: apart(at, point), before: -gone, beyond: gone - length }
+    }
 }
 
 fn closed(mut points: Vec<Point>) -> Stretch {
@@ -166,10 +169,6 @@ fn middle(a: Point, b: Point) -> Point {
 
 fn between(a: Point, b: Point, share: f64) -> Point {
     [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]
-}
-
-fn apart(a: Point, b: Point) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
 }
 
 /// How a tool comes down to a path along it.

@@ -19,6 +19,7 @@ mod linking;
 pub mod offset;
 mod ordering;
 mod pass;
+pub mod plan;
 mod planes;
 pub mod pocket;
 mod region;

@@ -9,6 +9,7 @@ use styluscam_geometry::Vector;
 use styluscam_motion::Role;
 
 use crate::offset::Keeping;
+use crate::plan::{apart, foot};
 use crate::{Entered, Followed, Heights, Lead, LinkRules, PathPoint, Segment, Surface};
 
 /// Distance between samples along a link, as a share of the tool's radius: how much too low they are is found by the proof.
@@ -155,14 +156,8 @@ impl Loop {
         self.sides().filter(crosses).count() % 2 == 1
     }
 
-    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
-        let to = |[a, b]: [[f64; 2]; 2]| {
-            let along = [b[0] - a[0], b[1] - a[1]];
-            let square = (along[0] * along[0] + along[1] * along[1]).max(f64::MIN_POSITIVE);
-            let share = (((x - a[0]) * along[0] + (y - a[1]) * along[1]) / square).clamp(0.0, 1.0);
-            libm::hypot(a[0] + share * along[0] - x, a[1] + share * along[1] - y)
-        };
-        self.sides().map(to).fold(f64::INFINITY, f64::min)
+    fn distance(&self, point: [f64; 2]) -> f64 {
+        self.sides().map(|side| apart(foot(point, side), point)).fold(f64::INFINITY, f64::min)
     }
 }
 

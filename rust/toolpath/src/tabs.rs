@@ -7,6 +7,7 @@ use styluscam_geometry::Vector;
 use styluscam_motion::{Arc, ArcPath, Move, MoveKind, Plane, Role};
 use thiserror::Error;
 
+use crate::plan::apart;
 use crate::Pass;
 
 /// Discs are wider by this, mm: coordinates are rounded.
@@ -379,10 +380,6 @@ fn zeros(function: &dyn Fn(f64) -> f64, count: usize) -> Vec<f64> {
         before = after;
     }
     found
-}
-
-fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
 }
 
 fn plan(a: [f64; 3], b: [f64; 3]) -> f64 {

@@ -8,6 +8,7 @@ use styluscam_toolpath::budget::Budget;
 use styluscam_toolpath::chamfer::{free_stretches, Stretch};
 use styluscam_toolpath::contouring::{descent, Beside};
 use styluscam_toolpath::offset::Envelope;
+use styluscam_toolpath::plan::{apart, foot};
 use styluscam_toolpath::{AlongSurface, Entered, Heights, Links, Pass, PathPoint, Rates, Seam, Sense, Surface};
 
 use super::contour_work::{Level, Rule, Work};
@@ -350,19 +351,7 @@ fn begin_near(points: &mut Vec<[f64; 2]>, at: [f64; 2]) {
     points.push(begin);
 }
 
-fn foot(point: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let square = along[0] * along[0] + along[1] * along[1];
-    let gone = (point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1];
-    let share = if square > 0.0 { (gone / square).clamp(0.0, 1.0) } else { 0.0 };
-    [a[0] + share * along[0], a[1] + share * along[1]]
-}
-
 /// How far a point is from a path in plan, mm.
 fn beside(points: &[[f64; 2]], point: [f64; 2]) -> f64 {
     points.windows(2).map(|pair| apart(foot(point, [pair[0], pair[1]]), point)).fold(f64::INFINITY, f64::min)
-}
-
-fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
 }

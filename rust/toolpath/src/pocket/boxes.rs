@@ -2,6 +2,7 @@
 
 use super::contours::Point;
 use super::window::{around, Window};
+use crate::plan::foot;
 
 /// Sides in a box, and boxes in a larger one.
 const GROUP: usize = 4;
@@ -141,16 +142,7 @@ fn square_farthest(p: Point, [low, high]: &Window) -> f64 {
 
 /// Square of the distance between a point and a side.
 pub fn square_distance(p: Point, a: Point, b: Point) -> f64 {
-    let on = foot(p, a, b);
+    let on = foot(p, [a, b]);
     let off: Point = [p[0] - on[0], p[1] - on[1]];
     off[0] * off[0] + off[1] * off[1]
-}
-
-/// The point of a side that is nearest to a point.
-pub fn foot(p: Point, a: Point, b: Point) -> Point {
-    let (along, arm) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let square = along[0] * along[0] + along[1] * along[1];
-    let dot = along[0] * arm[0] + along[1] * arm[1];
-    let share = if square > 0.0 { (dot / square).clamp(0.0, 1.0) } else { 0.0 };
-    [a[0] + share * along[0], a[1] + share * along[1]]
 }

@@ -1,8 +1,9 @@
 //! Material that is still there: how far a point is from it, and whether it lies in it.
 
-use super::boxes::{foot, Boxes};
+use super::boxes::Boxes;
 use super::polygons::{sides, Point, Polygons};
 use super::window::Window;
+use crate::plan::foot;
 
 /// An area with its sides in boxes.
 #[derive(Debug)]
@@ -46,7 +47,7 @@ impl Material {
     /// The point of its sides that is nearest to a point; None where there is none.
     pub fn nearest(&self, point: Point) -> Option<Point> {
         let (_, number) = self.boxes.nearest(&self.sides, point, (f64::INFINITY, usize::MAX));
-        self.sides.get(number).map(|(a, b)| foot(point, *a, *b))
+        self.sides.get(number).map(|(a, b)| foot(point, [*a, *b]))
     }
 
     /// Calls with the sides that may come through a circle.
