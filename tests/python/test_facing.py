@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
+import pytest
 
 import styluscam as sc
 
@@ -12,18 +14,18 @@ TOP, STOCK, TOLERANCE = 10.0, 3.0, 0.005
 RAPID = 0
 
 
-def job() -> sc.Job:
+def job(over: float = STOCK, **keys: Any) -> sc.Job:
     corners = [[x, y, z] for z in (0.0, TOP) for x, y in ((-20.0, -15.0), (20.0, -15.0), (20.0, 15.0), (-20.0, 15.0))]
     sides = [[i, (i + 1) % 4, (i + 1) % 4 + 4] for i in range(4)] + [[i, (i + 1) % 4 + 4, i + 4] for i in range(4)]
     triangles = [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], *sides]
     document = {
         "schema": 1,
         "part": {"file": "made.stl", "units": "mm"},
-        "setup": {"stock": {"kind": "box", "top": STOCK, "sides": 2.0}},
+        "setup": {"stock": {"kind": "box", "top": over, "sides": 2.0}},
         "process": {"kind": "milling"},
         "tools": {"mill": {"number": 1, "profile": {"kind": "flat", "diameter": 6.0}}},
         "machine": {"name": "linuxcnc"},
-        "operations": [{"kind": "pocket", "tool": "mill", "step": {"height": 1.0}, "tolerance": TOLERANCE}],
+        "operations": [{"kind": "pocket", "tool": "mill", "step": {"height": 1.0}, "tolerance": TOLERANCE} | keys],
     }
     return sc.Job.from_dict(document, part=sc.Part.from_mesh(np.array(corners), np.array(triangles)))
 
@@ -38,3 +40,14 @@ def test_the_top_of_a_stock_is_faced_level_by_level() -> None:
     # without the last level a millimetre stands
     raised = re.sub(rf"\bZ{heights[0]:g}\b", f"Z{heights[1]:g}", text)
     assert not sc.verify(raised, asked).ok
+
+
+@pytest.mark.parametrize("over", [0.235, 0.245, 0.255, 0.262, 0.28])
+def test_what_stands_little_over_what_stays_is_faced_or_no_layer(over: float) -> None:
+    asked = job(over, axial_stock_to_leave=0.24, clears="stock")
+    text = sc.post(sc.plan(asked), asked.machine()).text
+    assert sc.verify(text, asked).ok
+    moves = sc.read_gcode(text, asked.machine()).moves
+    heights = moves["end"][moves["kind"] != RAPID, 2]
+    is_faced = (np.abs(heights - TOP - 0.24) < 0.01).any()
+    assert is_faced or over < 0.26

@@ -22,6 +22,9 @@ const SMALL: f64 = 0.5;
 /// as well, and no level is theirs.
 const LEVEL: f64 = 5e-9;
 
+/// Stock over a floor, and over what stays on it, that is no thicker is no layer, mm.
+const NO_LAYER: f64 = 0.02;
+
 /// A level that is missing.
 struct Missing {
     finding: Finding,
@@ -128,7 +131,7 @@ fn over_floors(work: &Work<'_>, subject: &Subject) -> Vec<Missing> {
     let floors = floors.map(|floor| (floor.first().map_or(clearing.top, |triangle| height(*triangle)), floor));
     let left = clearing.left[1];
     let allowed = ROUGH + clearing.tolerance;
-    let over = floors.filter(|(floor, _)| floor + left < clearing.top - ROUGH).map(|(floor, triangles)| {
+    let over = floors.filter(|(floor, _)| floor + left < clearing.top - NO_LAYER).map(|(floor, triangles)| {
         let level = all.iter().position(|z| (-SAME_LEVEL..=allowed).contains(&(z - floor - left)));
         let Some((level, above)) = level.and_then(|i| Some((all.get(i)?, all.get(i.checked_sub(1)?)?))) else {
             let on = if left > 0.0 { format!("{left:.3} mm over") } else { "on".to_owned() };
