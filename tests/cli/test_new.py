@@ -420,6 +420,37 @@ def test_a_plate_is_roughed_drilled_and_finished(cli, tmp_path):
     assert ran.json["report"]["ok"]
 
 
+def test_pockets_of_a_part_for_a_ball_are_finished_with_a_flat_tool(parts, cli):
+    """A countersink asks for a ball; level floors and upright walls within sharp edges are a flat tool's."""
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCone
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+    from OCP.STEPControl import STEPControl_AsIs, STEPControl_Writer
+
+    solid = BRepPrimAPI_MakeBox(gp_Pnt(0.0, 0.0, 0.0), gp_Pnt(70.0, 50.0, 14.0)).Shape()
+    for low, high in (((20.0, 10.0, 9.0), (50.0, 40.0, 15.0)), ((26.0, 16.0, 4.0), (44.0, 34.0, 10.0))):
+        solid = BRepAlgoAPI_Cut(solid, BRepPrimAPI_MakeBox(gp_Pnt(*low), gp_Pnt(*high)).Shape()).Shape()
+    for x in (9.0, 61.0):
+        sink = BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(x, 25.0, 8.0), gp_Dir(0.0, 0.0, 1.0)), 0.5, 6.5, 6.0).Shape()
+        solid = BRepAlgoAPI_Cut(solid, sink).Shape()
+    writer = STEPControl_Writer()
+    writer.Transfer(solid, STEPControl_AsIs)
+    writer.Write(str(parts / "pockets.step"))
+    made = cli("new", parts / "pockets.step", "--out", parts / "pockets.toml", "--force", "--json")
+    assert made.code == 0, made.out
+    document = sc.Job.read(parts / "pockets.toml").document
+    works = {operation["id"]: operation for operation in document["operations"]}
+    profiles = {name: document["tools"][works[name]["tool"]]["profile"] for name in works}
+    assert len(works["flat-walls"]["faces"]) == 8 and 1 <= len(works["flat-floors"]["faces"]) <= 2
+    assert profiles["flat-walls"] == profiles["flat-floors"] and profiles["floors"]["kind"] == "ball"
+    assert profiles["flat-walls"]["kind"] == "flat"
+    assert profiles["flat-walls"]["diameter"] <= profiles["roughing"]["diameter"]
+    finished = [face for name in works if name != "roughing" for face in works[name]["faces"]]
+    assert len(finished) == len(set(finished))
+    ran = cli("run", parts / "pockets.toml", "--json")
+    assert ran.code == 0 and ran.json["report"]["ok"], ran.out[-2000:]
+
+
 def test_holes_deeper_than_three_diameters_are_pecked(parts, cli):
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder

@@ -93,3 +93,9 @@ def test_what_a_ball_leaves_between_its_rows_is_stock() -> None:
 
 def test_without_a_stated_stock_nothing_is_known_of_it() -> None:
     assert "stock-above" not in kinds(job(contour(z_top=BEGINS), stated=False))
+
+
+@pytest.mark.parametrize(("left", "found"), [(0.4, set()), (0.7, {"stock-above"})])
+def test_a_skin_on_the_wall_above_is_no_stock(left: float, found: set[str]) -> None:
+    down = pocket(radial_stock_to_leave=left)
+    assert kinds(job(down, contour(z_top=BEGINS, step={"height": 20.0}))) == found

@@ -364,12 +364,13 @@ impl Look<'_> {
     /// Moves that go down into the material too steeply.
     fn entries(&self, operation: &ExpectedOperation) -> Vec<Fault> {
         let Some(slope) = self.contouring.entry_slope else { return Vec::new() };
-        let most = operation.expectation.tabs.map_or(slope, |tabs| tabs.slope.max(slope));
+        let of_tabs = operation.expectation.tabs.map_or(slope, |tabs| tabs.slope.max(slope));
         let begins = self.contouring.lines.iter().map(|line| line.begins).fold(f64::NEG_INFINITY, f64::max);
         let unit = self.limits.unit;
         let steep = |(number, own): (usize, &Own<'_>)| {
             let Segment { start, end, kind, .. } = *own.segment;
             let start = start.filter(|_| own.is_feed())?;
+            let most = if Tabs::excuse(&self.tabs, start) { of_tabs } else { slope };
             let fall = start[2].min(begins) - end[2];
             let whole =
                 own.segment.bend.map_or_else(|| apart([start[0], start[1]], [end[0], end[1]]), |bend| bend.length());

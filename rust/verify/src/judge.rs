@@ -116,7 +116,7 @@ fn of_passes(
     faults.extend(holes::faults(segments, subject, limits));
     faults.extend(bored::faults(program, segments, subject, limits));
     faults.extend(covered::faults(segments, assignment, subject, limits, watch)?);
-    faults.extend(stock_above::faults(segments, subject, limits, watch)?);
+    faults.extend(stock_above::faults(segments, subject, watch)?);
     Ok(faults)
 }
 

@@ -85,6 +85,7 @@ mod sequence;
 mod settings;
 mod simulation;
 mod solid;
+mod standing;
 mod stock_above;
 mod stroke;
 mod subject;

@@ -47,9 +47,19 @@ const WORTHWHILE: f64 = 0.95;
 const TRIED: usize = 2;
 /// Share of the faces beyond which the tool is no tool for the part.
 const MOST_LEFT: f64 = 0.3;
+/// Places of a floor at which it is asked what a ball leaves there,
+const FLOOR_PLACES: usize = 200;
+/// the share of a floor that it may leave,
+const FLOOR_LEFT: f64 = 0.05;
+/// and how much less a flat tool must leave for the floor to be its.
+const FLAT_LEAVES: f64 = 0.5;
 /// Why levels and rows are there.
 const WALLS: &str = "finishing of upright and steep faces, in levels";
 const FLOORS: &str = "finishing of floors and gentle slopes, in rows";
+const FLAT_WALLS: &str =
+    "finishing of upright walls down to what lies before them, in levels, with a flat tool: a ball does not touch them";
+const FLAT_FLOORS: &str =
+    "finishing of level floors up to the walls, in rows, with a flat tool: a ball leaves much there";
 /// Levels at most.
 const LEVELS: f64 = 250.0;
 
@@ -70,6 +80,10 @@ impl Milled {
         } else {
             ""
         }
+    }
+
+    fn names(&self, face: &FaceLook) -> bool {
+        self.works.iter().any(|work| work.names(face.face))
     }
 }
 
@@ -105,7 +119,8 @@ fn work(
 }
 
 /// Rows, levels, or both, with a tool that gets to the faces that are not `done` before. A flat one is no wider than the
-/// `rougher`: in corners it would meet what a narrower one has not cleared.
+/// `rougher`: in corners it would meet what a narrower one has not cleared. Level floors and upright walls that a ball leaves are a
+/// flat one's.
 pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32], rougher: Option<&Cutter>) -> Milled {
     let seen: Vec<&FaceLook> = workable(looks).filter(|face| !done.contains(&face.face)).collect();
     let is_prismatic = seen.iter().all(|face| face.flat >= PRISMATIC || face.vertical >= PRISMATIC);
@@ -133,6 +148,12 @@ pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32], rougher: Option<&
             (milled, left, in_vain) = (smaller, share, 0);
         }
     }
+    let flat = rougher
+        .filter(|_| !is_prismatic)
+        .map(|rougher| Cutter { shape: Shape::Flat, diameter: rougher.diameter.min(milled.tool.diameter) });
+    if let Some((with_flat, share)) = flat.and_then(|flat| with_flat(&by_face, &seen, &milled, &flat)) {
+        (milled, left) = (with_flat, left.min(share));
+    }
     let prefix = milled.left_out();
     milled.reasons.extend(under_others(looks).map(|words| format!("{prefix}{words}")));
     if left > SURE * allowed {
@@ -152,17 +173,70 @@ pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32], rougher: Option<&
     milled
 }
 
+/// The same with a flat tool, before the ball, for the level floors and upright walls that the ball leaves, and the share of the
+/// ball's own faces to which it does not get; none where a flat tool is not worth it, or rows serve the whole part.
+fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &Cutter) -> Option<(Milled, f64)> {
+    if milled.works.iter().any(|work| work.faces.is_none()) {
+        return None;
+    }
+    let [ball_reach, flat_reach] = [by_face.reach(&milled.tool)?, by_face.reach(flat)?];
+    let is_for_flat = |face: &&FaceLook| {
+        if face.hole.is_some() {
+            return false;
+        }
+        if is_wall(face) {
+            let is_left = face.vertical >= PRISMATIC && !milled.names(face);
+            return is_left && fits(face, flat) && by_face.is_touched(face, flat, None);
+        }
+        let leaves = |reach: &ToolReach<'_>| {
+            reach.share_left(by_face.of_face(face.face), FLOOR_PLACES, 0.5 * TOUCHED * milled.tool.diameter)
+        };
+        let by_ball = if face.flat >= PRISMATIC { leaves(&ball_reach) } else { 0.0 };
+        by_ball > FLOOR_LEFT && leaves(&flat_reach) <= FLAT_LEAVES * by_ball
+    };
+    let (of_flat, rest): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().copied().partition(is_for_flat);
+    if area(&of_flat) < WORTH * area(seen) || of_flat.len() > NAMES {
+        return None;
+    }
+    let words = milled.reasons.first().cloned().unwrap_or_default();
+    let mut both = worked(by_face, &rest, milled.tool, words);
+    if rest.iter().any(|face| milled.names(face) && !both.names(face)) {
+        return None; // too little is left for the ball's rows
+    }
+    let share = by_face.share_left(&both);
+    let mesh = by_face.body.mesh();
+    let angle_deg = if size(mesh)[0] >= size(mesh)[1] { 0.0 } else { 90.0 };
+    let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = of_flat.into_iter().partition(|face| is_wall(face));
+    let cutter = ("flat-cutter", flat);
+    let numbers = |faces: &[&FaceLook]| Some(faces.iter().map(|face| face.face).collect::<Vec<u32>>());
+    let mut works = Vec::new();
+    if !walls.is_empty() {
+        let passes = [levels_apart(mesh, &walls, flat), angle_deg];
+        works.push(work("flat-walls", Serves::Walls, cutter, numbers(&walls), (passes, FLAT_WALLS)));
+    }
+    if !floors.is_empty() {
+        let passes = [rows_apart(&floors, flat), angle_deg];
+        works.push(work("flat-floors", Serves::Floors, cutter, numbers(&floors), (passes, FLAT_FLOORS)));
+    }
+    works.append(&mut both.works);
+    both.works = works;
+    both.reasons.push(format!(
+        "a flat tool of {} mm finishes the upright walls and level floors that the ball does not get to",
+        flat.diameter
+    ));
+    Some((both, share))
+}
+
 /// Rows, levels, or both for the faces seen, with a tool.
 fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String) -> Milled {
     let mesh = by_face.body.mesh();
     let whole = area(seen);
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
     let reasons = vec![words];
-    let fits = |face: &&FaceLook| Hollows::bound([*face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter);
     // of more walls than an operation names it is not asked: nearly always rows serve the whole part then
     let asks_reach = tool.shape == Shape::Ball && walls.len() <= NAMES;
     let reach = asks_reach.then(|| by_face.reach(&tool)).flatten();
-    let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.into_iter().partition(|face| fits(face));
+    let (open, narrow): (Vec<&FaceLook>, Vec<&FaceLook>) = walls.into_iter().partition(|face| fits(face, &tool));
     let (open, low): (Vec<&FaceLook>, Vec<&FaceLook>) =
         open.into_iter().partition(|face| face.vertical < PRISMATIC || by_face.is_touched(face, &tool, reach.as_ref()));
     let few = floors.len().max(open.len()) <= NAMES;
@@ -280,6 +354,11 @@ fn untouched(low: &[&FaceLook], tool: &Cutter) -> Option<String> {
             names(low)
         )
     })
+}
+
+/// Whether a tool has room before most of a face.
+fn fits(face: &FaceLook, tool: &Cutter) -> bool {
+    Hollows::bound([face], 0.5).is_none_or(|radius| 2.02 * radius >= tool.diameter)
 }
 
 /// Rows serve a face that is wall and floor in one.

@@ -1,6 +1,6 @@
 //! What the programs and operations before one have swept of a layer.
 
-use styluscam_geometry::Tool;
+use styluscam_geometry::{Cutter, Tool};
 
 use super::own::Own;
 use crate::before::{Before, Stretch};
@@ -43,12 +43,13 @@ impl<'a> Took<'a> {
 }
 
 fn swept<'s>(stretches: &'s [Stretch], tools: &'s [Tool], [top, floor]: [f64; 2]) -> impl Iterator<Item = Swept> + 's {
+    let cutters: Vec<Cutter> = tools.iter().map(Tool::cutter).collect();
     stretches.iter().filter(|stretch| !stretch.is_rapid).filter_map(move |stretch| {
         let start = stretch.start?;
         let highest = start[2].max(stretch.end[2]);
-        let tool = tools.get(stretch.tool?).filter(|_| highest <= floor + SAME_LEVEL)?;
+        let cutter = cutters.get(stretch.tool?).filter(|_| highest <= floor + SAME_LEVEL)?;
         let bulge = stretch.bend.map_or(0.0, |bend| bend.bulge());
         let points = vec![[start[0], start[1], bulge], [stretch.end[0], stretch.end[1], 0.0]];
-        Some(Swept { points, radius: tool.cutter().at_height(top - highest).0 })
+        Some(Swept { points, radius: cutter.at_height(top - highest).0 })
     })
 }

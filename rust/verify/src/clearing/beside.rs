@@ -55,7 +55,10 @@ pub(super) fn left(
             }
             let [across, _] = layer.clearing.left;
             let is_reached = grid.nearest(along(across + 2.0 * grid.spacing)).is_some_and(|node| reached[node]);
-            let is_in_stock = layer.is_stock(along(across + allowed - layer.radius));
+            // about corners that stand out all is cleared from both sides of them
+            let off_wall = along(across + allowed - layer.radius);
+            let is_swept = passed.distance(off_wall).is_some_and(|beside| beside < layer.radius);
+            let is_in_stock = layer.is_stock(off_wall) && !is_swept;
             let reach = layer.clearing.smoothing + across;
             let centre = along(reach + FINE);
             let fits = (0..SIDES).map(|i| libm::sincos(TAU * f64::from(i) / f64::from(SIDES)));

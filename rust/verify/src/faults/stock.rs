@@ -66,3 +66,8 @@ pub(crate) static STOCK_ABOVE: FaultKind = FaultKind::on_part(
     },
     "raise z_top, or have an operation before it take what stands there",
 );
+pub(crate) static LEVEL_ABOVE: FaultKind = FaultKind::on_part(
+    FindingKind::StockAbove,
+    |fault| format!("stock stands here that the level at Z{:.3} is to take before", fault.value()),
+    "post the job again: levels are cut from the top down",
+);
