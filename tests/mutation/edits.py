@@ -21,7 +21,7 @@ def edits(text: str) -> list[str]:
     made = []
     for number, line in enumerate(lines):
         others = [""]
-        for word in re.finditer(r"\b([XYZ])(-?[\d.]+)", line):
+        for word in re.finditer(r"\b([XYZIJ])(-?[\d.]+)", line):
             value = float(word[2])
             changed = [value + 0.1, value - 0.1, value + 1.5, value - 1.5, -value, 10 * value, value / 10]
             others += [f"{line[: word.start()]}{word[1]}{new:.3f}{line[word.end() :]}" for new in changed]

@@ -284,3 +284,13 @@ def _refusal(face: int) -> str:
     except sc.JobError as error:
         return error.code
     return ""
+
+
+def test_stock_above_a_stated_beginning_is_found() -> None:
+    document = job().to_dict()
+    document["setup"] |= {"stock": {"kind": "box", "top": 3.0, "sides": 1.0}, "clearance": 30.0, "retract": 17.0}
+    asked = sc.Job.from_dict(document)
+    assert kinds(text_of(asked), asked) == set()
+    document["operations"][0]["z_top"] = 12.0
+    asked = sc.Job.from_dict(document)
+    assert "stock-above" in kinds(text_of(asked), asked)

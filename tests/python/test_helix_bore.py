@@ -227,3 +227,13 @@ def test_the_pitch_that_a_refusal_names_is_taken() -> None:
         sc.plan(job(pitch=1.0, diameter=5.0))
     pitch = float(re.findall(r"pitch = ([\d.]+)", str(refused.value.hint))[0])
     assert sc.plan(job(pitch=pitch, diameter=5.0)).programs["main"].moves.size
+
+
+def test_stock_above_a_stated_beginning_is_found() -> None:
+    document = job(faces=HOLE).to_dict()
+    document["setup"] |= {"stock": {"kind": "box", "top": 3.0, "sides": 1.0}, "retract": 17.0}
+    for keys, found in (({}, set()), ({"z_top": 12.0}, {"stock-above"})):
+        document["operations"][0] |= keys
+        asked = sc.Job.from_dict(document)
+        text = sc.post(sc.plan(asked), "linuxcnc").text
+        assert {finding["kind"] for finding in sc.verify(text, asked).to_dict()["findings"]} == found

@@ -68,6 +68,13 @@ def test_an_operation_that_begins_below_the_stock_is_found(operation: Any) -> No
     assert "stock-above" in kinds(job(operation(z_top=TOP + OVER - 0.21)))
 
 
+@pytest.mark.parametrize("around", [{"diameter": 60.0}, {"sides": 5.0}])
+def test_in_a_cylinder_it_is_found_where_there_is_stock(around: dict[str, float]) -> None:
+    stock = {"kind": "cylinder", "top": OVER} | around
+    assert "stock-above" in kinds(job(contour(z_top=BEGINS), stock=stock))
+    assert "stock-above" not in kinds(job(contour(), stock=stock))
+
+
 @pytest.mark.parametrize("operation", [contour, pocket])
 def test_it_is_sound_after_what_takes_the_stock_above(operation: Any) -> None:
     down = pocket(z_bottom=BEGINS)
