@@ -1,4 +1,4 @@
-"""Contours level by level: in which order edges are milled, how the tool comes into the stock, and what the verifier finds of it."""
+"""Contours level by level: in which order edges are milled, how the tool comes into the stock, and what is found of it."""
 
 from __future__ import annotations
 
