@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import styluscam as sc
+from blocks import box
 from convex_tool import Floats
 from gcode import Move, Point
 
@@ -24,13 +25,6 @@ ALONG = 0.1
 """Moves are looked at so far apart, mm."""
 
 
-def block() -> sc.Part:
-    x, y, z = SIZE
-    vertices = np.array([[i, j, k] for k in (0.0, z) for i, j in ((0.0, 0.0), (x, 0.0), (x, y), (0.0, y))])
-    walls = [[i, (i + 1) % 4, (i + 1) % 4 + 4] for i in range(4)] + [[i, (i + 1) % 4 + 4, i + 4] for i in range(4)]
-    return sc.Part.from_mesh(vertices, np.array([[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], *walls]))
-
-
 def job(profile: dict[str, Any], **operation: Any) -> sc.Job:
     common = {"tool": "mill", "feeds": {"cut": 600.0, "plunge": 200.0}, "spindle": {"mode": "fixed", "rpm": 3000.0}}
     stock = {"kind": "box", "top": OVER, "sides": SIDES}
@@ -43,7 +37,7 @@ def job(profile: dict[str, Any], **operation: Any) -> sc.Job:
         "operations": [common | operation],
         "machine": {"name": "grbl"},
     }
-    return sc.Job.from_dict(document, part=block())
+    return sc.Job.from_dict(document, part=sc.Part.from_mesh(*box((0.0, 0.0, 0.0), SIZE)))
 
 
 def beside(at: Floats, around: float = 0.0) -> Floats:

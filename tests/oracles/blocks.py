@@ -1,4 +1,4 @@
-"""A block with a rectangular pocket, as a mesh and as a file."""
+"""Blocks: one with a rectangular pocket, as a mesh and as a file, and one without."""
 
 from __future__ import annotations
 
@@ -29,6 +29,15 @@ def mesh() -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[
     quads += [(4, [12, 13, 14, 15]), (5, [3, 2, 1, 0])]
     triangles = np.array([half for _, (a, b, c, d) in quads for half in ([a, b, c], [a, c, d])])
     return np.concatenate(rings), triangles, np.repeat([face for face, _ in quads], 2)
+
+
+def box(
+    low: tuple[float, float, float], high: tuple[float, float, float]
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
+    """A closed block, its normals outwards: two triangles a side, bottom first, then top, front, right, back, left."""
+    corners = np.array([[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)], dtype=float)
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
+    return corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
 
 
 def write_stl(path: Path) -> None:

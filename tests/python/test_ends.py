@@ -9,6 +9,7 @@ import pytest
 from conftest import Mesh
 
 import styluscam as sc
+from blocks import box
 
 BALL = {"kind": "ball", "diameter": 6.0}
 TOOLS: dict[str, dict[str, Any]] = {
@@ -17,13 +18,6 @@ TOOLS: dict[str, dict[str, Any]] = {
     "bull-nose": {"kind": "bull-nose", "diameter": 6.0, "corner_radius": 1.0},
     "clothoid": {"kind": "clothoid", "diameter": 6.0},
 }
-
-
-def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Mesh:
-    """A closed block, its normals outwards: two triangles a side, bottom first, then top, front, right, back, left."""
-    corners = np.array([[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)], dtype=float)
-    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
-    return corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
 
 
 def tilted(mesh: Mesh, angle: float) -> Mesh:

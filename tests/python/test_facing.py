@@ -9,15 +9,13 @@ import numpy as np
 import pytest
 
 import styluscam as sc
+from blocks import box
 
 TOP, STOCK, TOLERANCE = 10.0, 3.0, 0.005
 RAPID = 0
 
 
 def job(over: float = STOCK, **keys: Any) -> sc.Job:
-    corners = [[x, y, z] for z in (0.0, TOP) for x, y in ((-20.0, -15.0), (20.0, -15.0), (20.0, 15.0), (-20.0, 15.0))]
-    sides = [[i, (i + 1) % 4, (i + 1) % 4 + 4] for i in range(4)] + [[i, (i + 1) % 4 + 4, i + 4] for i in range(4)]
-    triangles = [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], *sides]
     document = {
         "schema": 1,
         "part": {"file": "made.stl", "units": "mm"},
@@ -27,7 +25,7 @@ def job(over: float = STOCK, **keys: Any) -> sc.Job:
         "machine": {"name": "linuxcnc"},
         "operations": [{"kind": "pocket", "tool": "mill", "step": {"height": 1.0}, "tolerance": TOLERANCE} | keys],
     }
-    return sc.Job.from_dict(document, part=sc.Part.from_mesh(np.array(corners), np.array(triangles)))
+    return sc.Job.from_dict(document, part=sc.Part.from_mesh(*box((-20.0, -15.0, 0.0), (20.0, 15.0, TOP))))
 
 
 def test_the_top_of_a_stock_is_faced_level_by_level() -> None:

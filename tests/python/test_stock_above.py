@@ -4,21 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pytest
 
 import styluscam as sc
+from blocks import box
 
 TOP, OVER, SIDES = 10.0, 4.0, 3.0
 BEGINS = 8.0
 """Of operations that begin below the stock's top, and below the part's."""
-
-
-def block() -> sc.Part:
-    """A block of 40 x 30 x 10 mm."""
-    corners = [[x, y, z] for z in (0.0, TOP) for x, y in ((-20.0, -15.0), (20.0, -15.0), (20.0, 15.0), (-20.0, 15.0))]
-    sides = [[i, (i + 1) % 4, (i + 1) % 4 + 4] for i in range(4)] + [[i, (i + 1) % 4 + 4, i + 4] for i in range(4)]
-    return sc.Part.from_mesh(np.array(corners), np.array([[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], *sides]))
 
 
 def job(*operations: dict[str, Any], stated: bool = True, stock: dict[str, Any] | None = None) -> sc.Job:
@@ -36,7 +29,7 @@ def job(*operations: dict[str, Any], stated: bool = True, stock: dict[str, Any] 
         "machine": {"name": "linuxcnc"},
         "operations": [common | {"id": f"of{number}"} | operation for number, operation in enumerate(operations)],
     }
-    return sc.Job.from_dict(document, part=block())
+    return sc.Job.from_dict(document, part=sc.Part.from_mesh(*box((-20.0, -15.0, 0.0), (20.0, 15.0, TOP))))
 
 
 def contour(**keys: Any) -> dict[str, Any]:
@@ -78,12 +71,8 @@ def test_in_a_cylinder_it_is_found_where_there_is_stock(around: dict[str, float]
 @pytest.mark.parametrize("operation", [contour, pocket])
 def test_it_is_sound_after_what_takes_the_stock_above(operation: Any) -> None:
     down = pocket(z_bottom=BEGINS)
-    assert (
-        kinds(
-            job(down, operation(z_top=BEGINS, rest_machining=True) if operation is pocket else operation(z_top=BEGINS))
-        )
-        == set()
-    )
+    rest = {"rest_machining": True} if operation is pocket else {}
+    assert kinds(job(down, operation(z_top=BEGINS, **rest))) == set()
     # one that ends higher does not help, and one that comes after
     high = pocket(z_bottom=BEGINS + 1.0)
     assert "stock-above" in kinds(job(high, contour(z_top=BEGINS)))

@@ -18,6 +18,7 @@ use crate::assignment::Assignment;
 use crate::body::Body;
 use crate::chamfered::named_edges;
 use crate::clearance::Prober;
+use crate::earlier::plan_chords;
 use crate::expectation::{ContourLevel, ContourLine, ContourPiece, ContourSide, Contouring, ExpectedOperation};
 use crate::faults::{self, Fault};
 use crate::findings::Finding;
@@ -117,13 +118,9 @@ impl Own<'_> {
     }
 
     /// Its path in plan in chords.
-    fn chords(&self) -> Vec<Line<[f64; 2]>> {
-        let plan = |[x, y, _]: [f64; 3]| [x, y];
-        let start = plan(self.segment.start.unwrap_or(self.segment.end));
-        let Some(bend) = self.segment.bend else { return vec![Line::new(start, plan(self.segment.end))] };
-        let count = bend.chords(SAG).max(1);
-        let at = |i: usize| plan(bend.at(i as f64 / count as f64));
-        (0..count).map(|i| Line::new(at(i), at(i + 1))).collect()
+    fn chords(&self) -> impl Iterator<Item = Line<[f64; 2]>> {
+        let Segment { start, end, bend, .. } = *self.segment;
+        plan_chords([start.unwrap_or(end), end], bend, SAG)
     }
 }
 
@@ -171,8 +168,7 @@ impl Look<'_> {
     /// Paths of some of the moves.
     fn axes(&self, is_meant: impl Fn(&Own<'_>) -> bool) -> Axes {
         let meant = self.own.iter().enumerate().filter(|(_, own)| is_meant(own));
-        let chords =
-            meant.flat_map(|(number, own)| own.chords().into_iter().map(move |chord| GeomWithData::new(chord, number)));
+        let chords = meant.flat_map(|(number, own)| own.chords().map(move |chord| GeomWithData::new(chord, number)));
         RTree::bulk_load(chords.collect())
     }
 
@@ -400,13 +396,13 @@ impl Look<'_> {
             let at = |i: usize| [0, 1].map(|k| chord.from[k] + (chord.to[k] - chord.from[k]) * i as f64 / count);
             (0..=count as usize).all(|i| is_out(at(i)))
         };
-        own.chords().iter().all(along)
+        own.chords().all(|chord| along(&chord))
     }
 
     /// Whether moves before one went as low, or lower, where it ends.
     fn is_cleared(&self, number: usize, [x, y, z]: [f64; 3]) -> bool {
         let before = self.own.iter().take(number).filter(|own| own.is_feed() && own.segment.lowest() <= z + SLACK);
-        let is_near = |own: &Own<'_>| own.chords().iter().any(|chord| chord.distance_2(&[x, y]) <= BESIDE * BESIDE);
+        let is_near = |own: &Own<'_>| own.chords().any(|chord| chord.distance_2(&[x, y]) <= BESIDE * BESIDE);
         before.filter(|own| !own.segment.falls()).any(is_near)
     }
 }

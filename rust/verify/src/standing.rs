@@ -5,7 +5,7 @@ use rstar::{PointDistance, RTree};
 use styluscam_geometry::{Cutter, Tool};
 
 use crate::before::Stretch;
-use crate::earlier::stretches;
+use crate::earlier::{plan_chords, stretches};
 use crate::engagement::Area;
 use crate::segments::Segment;
 use crate::subject::Subject;
@@ -59,14 +59,14 @@ impl Standing {
         Some(Self { plane, area: Area::new(&outlines, reach), sweeps: RTree::bulk_load(all), widest })
     }
 
-    /// The first position on a move at which its tool is in what the moves with lower numbers than `before` leave.
-    pub fn first_in(&self, segment: &Segment, cutter: &Cutter, before: usize) -> Option<[f64; 3]> {
+    /// The first position on a move at which its tool is in what the moves before it leave.
+    pub fn first_in(&self, segment: &Segment, cutter: &Cutter) -> Option<[f64; 3]> {
         if segment.lowest() >= self.plane {
             return None;
         }
         let count = (segment.length() / (APART * cutter.max_radius())).ceil().clamp(1.0, MOST);
         let mut tips = (0..=count as u32).map(|i| segment.at(f64::from(i) / count));
-        tips.find(|tip| self.is_in(*tip, cutter, before))
+        tips.find(|tip| self.is_in(*tip, cutter, segment.index))
     }
 
     /// Whether the section of a tool in the plane is in stock.
@@ -114,13 +114,5 @@ fn sweeps(index: Option<usize>, stretch: &Stretch, cutters: &[Cutter], plane: f6
         return Vec::new();
     }
     let radius = cutter.at_height(plane - highest).0;
-    let count = stretch.bend.map_or(1, |bend| bend.chords(SAG).max(1));
-    let at = |i: usize| {
-        let share = i as f64 / count as f64;
-        let [x, y, _] = stretch
-            .bend
-            .map_or_else(|| [0, 1, 2].map(|k| start[k] + share * (stretch.end[k] - start[k])), |bend| bend.at(share));
-        [x, y]
-    };
-    (0..count).map(|i| Sweep::new(Line::new(at(i), at(i + 1)), (index, radius))).collect()
+    plan_chords([start, stretch.end], stretch.bend, SAG).map(|chord| Sweep::new(chord, (index, radius))).collect()
 }

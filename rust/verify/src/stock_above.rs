@@ -35,12 +35,13 @@ pub(crate) fn faults(segments: &[Segment], subject: &Subject, watch: &Watch) -> 
         let own: Vec<&Segment> = segments.iter().filter(|segment| segment.expected == Some(number)).collect();
         let Some(first) = own.iter().map(|segment| segment.index).min() else { continue };
         // of a stock that is not stated nothing is known but that the part is in it
-        for (begins, own) in by_beginning(operation, &own).into_iter().filter(|_| subject.stock_is_stated) {
+        let beginnings = if subject.stock_is_stated { by_beginning(operation, &own) } else { Vec::new() };
+        for (begins, own) in beginnings {
             let before = segments.iter().filter(|segment| segment.index < first);
             let Some(standing) = Standing::above(begins + AIR, before, subject) else { continue };
             for segment in own {
                 watch.advance(0)?;
-                if let Some(position) = standing.first_in(segment, &cutter, first) {
+                if let Some(position) = standing.first_in(segment, &cutter) {
                     let fault = segment.fault(&faults::STOCK_ABOVE).measured(stock.top - begins, 0.0);
                     faults.push(Fault { position, ..fault });
                     break;
@@ -99,7 +100,7 @@ fn too_deep(
     };
     let lines: Vec<(RTree<Line<[f64; 2]>>, &ContourLine)> =
         contouring.lines.iter().map(|line| (sides(line), line)).collect();
-    let mut planes: BTreeMap<u64, Option<Standing>> = BTreeMap::new();
+    let mut planes: BTreeMap<[u64; 2], Option<Standing>> = BTreeMap::new();
     for segment in own {
         watch.advance(0)?;
         if !matches!(segment.kind, SegmentKind::Lateral | SegmentKind::Plunge) {
@@ -112,13 +113,13 @@ fn too_deep(
         let Some((_, line)) = lines.iter().min_by(|a, b| apart(&a.0).total_cmp(&apart(&b.0))) else { continue };
         let tips = || line.levels.iter().map(|level| level.tip);
         let Some(level) = tips().filter(|tip| *tip > segment.lowest() + SAME_LEVEL).reduce(f64::min) else { continue };
-        let standing = planes.entry(level.to_bits()).or_insert_with(|| {
+        let next = tips().filter(|tip| *tip < level - SAME_LEVEL).fold(f64::NEG_INFINITY, f64::max);
+        let standing = planes.entry([level, next].map(f64::to_bits)).or_insert_with(|| {
             // its own moves on that level and to the next: those below it come later
-            let next = tips().filter(|tip| *tip < level - SAME_LEVEL).fold(f64::NEG_INFINITY, f64::max);
             let takes = |it: &&Segment| it.expected != segment.expected || it.end[2] > next + SAME_LEVEL;
             Standing::above(level + profile + AIR, segments.iter().filter(takes), subject)
         });
-        let Some(position) = standing.as_ref().and_then(|it| it.first_in(segment, cutter, segment.index)) else {
+        let Some(position) = standing.as_ref().and_then(|it| it.first_in(segment, cutter)) else {
             continue;
         };
         let fault = segment.fault(&faults::LEVEL_ABOVE).measured(level, 0.0);

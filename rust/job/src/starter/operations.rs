@@ -205,10 +205,9 @@ fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &C
     }
     let share = by_face.share_left(&both);
     let mesh = by_face.body.mesh();
-    let angle_deg = if size(mesh)[0] >= size(mesh)[1] { 0.0 } else { 90.0 };
+    let angle_deg = rows_along(mesh);
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = of_flat.into_iter().partition(|face| is_wall(face));
     let cutter = ("flat-cutter", flat);
-    let numbers = |faces: &[&FaceLook]| Some(faces.iter().map(|face| face.face).collect::<Vec<u32>>());
     let mut works = Vec::new();
     if !walls.is_empty() {
         let passes = [levels_apart(mesh, &walls, flat), angle_deg];
@@ -242,12 +241,11 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
     let few = floors.len().max(open.len()) <= NAMES;
     let with_levels = area(&open) >= WORTH * whole && few;
     let with_rows = area(&floors) >= WORTH * whole || !with_levels;
-    let angle_deg = if size(mesh)[0] >= size(mesh)[1] { 0.0 } else { 90.0 };
+    let angle_deg = rows_along(mesh);
     let cutter = ("cutter", &tool);
     let rows = |faces| work("floors", Serves::Floors, cutter, faces, ([rows_apart(seen, &tool), angle_deg], FLOORS));
     let levels =
         |faces| work("walls", Serves::Walls, cutter, faces, ([levels_apart(mesh, &open, &tool), angle_deg], WALLS));
-    let numbers = |faces: &[&FaceLook]| Some(faces.iter().map(|face| face.face).collect::<Vec<u32>>());
     let (works, words) = match (with_levels, with_rows) {
         (true, true) => (
             vec![levels(numbers(&open)), rows(numbers(&floors))],
@@ -354,6 +352,21 @@ fn untouched(low: &[&FaceLook], tool: &Cutter) -> Option<String> {
             names(low)
         )
     })
+}
+
+/// The numbers of faces, for an operation to name.
+fn numbers(faces: &[&FaceLook]) -> Option<Vec<u32>> {
+    Some(faces.iter().map(|face| face.face).collect())
+}
+
+/// The angle of rows along a part's longer side, deg.
+fn rows_along(mesh: &Mesh) -> f64 {
+    let [x, y, ..] = size(mesh);
+    if x >= y {
+        0.0
+    } else {
+        90.0
+    }
 }
 
 /// Whether a tool has room before most of a face.
