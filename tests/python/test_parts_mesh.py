@@ -67,9 +67,16 @@ def test_wound_inward_is_turned(tmp_path: Path) -> None:
 
 def test_open_mesh_is_flagged(tmp_path: Path) -> None:
     mesh = cube()
+    mesh.update_faces(mesh.face_normals[:, 2] < 0.5)
+    part = read_part(export(mesh, tmp_path / "c.stl"), units="mm")
+    assert not part.is_closed and "open" in part.notes[0] and len(part.triangles) == 10
+
+
+def test_a_missing_triangle_is_made_again(tmp_path: Path) -> None:
+    mesh = cube()
     mesh.update_faces(np.arange(len(mesh.faces)) > 0)
     part = read_part(export(mesh, tmp_path / "c.stl"), units="mm")
-    assert not part.is_closed and "open" in part.notes[0]
+    assert part.is_closed and len(part.triangles) == 12 and "1 hole, 14.1 mm wide at most" in part.notes[0]
 
 
 def test_distance_to_facets(tmp_path: Path) -> None:

@@ -4,7 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from styluscam.words import counted
+from styluscam.words import counted, position
+
+
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """Holes that were closed in what is a body but for them.
+
+    Attributes:
+        holes: how many.
+        triangles: what they were closed with.
+        widest: diagonal of the largest one's box, mm.
+        at: the middle of that box, mm.
+    """
+
+    holes: int
+    triangles: int
+    widest: float
+    at: tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +39,7 @@ class Mending:
         double_sided: left out: the second side of a surface.
         turned: turned over because their neighbours wind oppositely.
         inside_out: turned over with their whole body.
+        filled: holes that were closed; None where there are none.
         closed: whether each edge is shared by two triangles.
         unclear: a point where the triangles cannot be made to agree, mm; None where there is none.
     """
@@ -36,6 +54,7 @@ class Mending:
     double_sided: int
     turned: int
     inside_out: int
+    filled: Filled | None
     closed: bool
     unclear: tuple[float, float, float] | None
 
@@ -62,6 +81,12 @@ class Mending:
             notes.append("the mesh was wound inward (inside out): its triangles were turned over")
         elif self.inside_out:
             notes.append(f"{_some(self.inside_out)} turned over, of bodies that were wound inward (inside out)")
+        if self.filled is not None:
+            filled = self.filled
+            notes.append(
+                f"the surface had {counted(filled.holes, 'hole')}, {filled.widest:.3g} mm wide at most, at "
+                f"{position(filled.at)}: closed with {_some(filled.triangles)}; repair the part where an opening was meant"
+            )
         if not self.closed:
             notes.append(
                 "the mesh is open (not each edge is shared by two triangles): repair it if the part is a solid"

@@ -15,7 +15,7 @@ from styluscam.extras import require
 from styluscam.parts.arrays import FaceInfo, Ints, PartArrays, area_vectors, describe_face
 from styluscam.parts.facets import Facets
 from styluscam.parts.formats import UNITLESS, UNITS
-from styluscam.parts.mending import Mending
+from styluscam.parts.mending import Filled, Mending
 from styluscam.parts.progress import Progress, report
 from styluscam.parts.stl import read_stl
 from styluscam.parts.surfaces import Floats, unit
@@ -90,7 +90,8 @@ def _mended(file: Path, points: Floats, corners: Ints) -> tuple[Floats, Ints, In
             raise _error(file, what, "export it again", "part-zero-area") from error
         raise _error(file, f"damaged: {error}", "export the part again", "part-damaged") from error
     done = json.loads(text)
-    mending = Mending(**done["mending"])
+    filled = done["mending"].pop("filled")
+    mending = Mending(**done["mending"], filled=None if filled is None else Filled(**filled))
     if mending.unclear is not None:
         point = position(mending.unclear)
         what = f"its triangles are wound inconsistently, some are inside out, and which side is out is not clear at {point}"

@@ -25,8 +25,22 @@ pub struct Mending {
     pub turned: usize,
     /// Triangles of bodies that were inside out as a whole, turned over.
     pub inside_out: usize,
+    /// Holes that were closed in what is a body but for them.
+    pub filled: Option<Filled>,
     /// Whether each edge is run as often in one direction as in the other.
     pub closed: bool,
     /// A point at which triangles cannot be made to agree, mm.
     pub unclear: Option<[f64; 3]>,
+}
+
+/// Holes that were closed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Filled {
+    pub holes: usize,
+    /// What they were closed with.
+    pub triangles: usize,
+    /// Diagonal of the largest one's box, mm.
+    pub widest: f64,
+    /// The middle of that box.
+    pub at: [f64; 3],
 }

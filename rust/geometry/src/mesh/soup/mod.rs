@@ -6,6 +6,7 @@
 mod copies;
 mod edges;
 mod faces;
+mod holes;
 mod mending;
 mod seams;
 mod shapes;
@@ -15,7 +16,7 @@ mod weld;
 mod winding;
 
 use crate::{GeometryError, Vector};
-pub use mending::Mending;
+pub use mending::{Filled, Mending};
 pub use shapes::Shape;
 pub(crate) use weld::exact as weld_exact;
 
@@ -71,7 +72,9 @@ impl Soup {
         if joins == Joins::NearAndSeams {
             seams::cut(vertices, &mut triangles, &mut mending);
         }
-        winding::turn_outward(vertices, &mut triangles, &mut mending);
+        let (mut patches, edges) = winding::agree(vertices, &mut triangles, &mut mending);
+        let edges = holes::fill(vertices, &mut triangles, edges, &mut patches, &mut mending);
+        winding::turn_outward(vertices, &mut triangles, &edges, &patches, &mut mending);
         let (vertices, triangles) = weld::used(vertices, triangles);
         Self { vertices, triangles, mending }
     }

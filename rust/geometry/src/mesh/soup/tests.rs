@@ -253,8 +253,10 @@ fn a_hollow_stays_and_turns_with_its_body() {
 
 #[test]
 fn a_body_with_a_small_hole_is_turned_too() {
-    let mut made = field(20, |_, _| 0.0).reversed();
-    made.0.remove(0);
+    let mut made = field(40, |_, _| 0.0).reversed();
+    // a hole with 16 sides: more than are closed
+    let middle = Vector::new(50.0, 50.0, 0.0);
+    made.0.retain(|t| !t.iter().all(|p| (p - middle).amax() < 5.1));
     let soup = made.mended();
     assert_eq!((soup.mending.inside_out, soup.mending.closed), (made.0.len(), false));
 }
@@ -430,4 +432,95 @@ fn a_border_beside_another_is_not_cut() {
         squares.0.push([at(0.0, 0.0), at(5.0, -3.0), tip]);
         assert_eq!(squares.mended().mending.cut, 0);
     }
+}
+
+/// A cup with 12 sides, in which each triangle is less than a tenth of the surface.
+fn cup() -> Triangles {
+    turned(12, &[(10.0, 0.0), (10.0, 15.0), (6.0, 15.0), (6.0, 5.0)])
+}
+
+/// A mesh's triangles by their corners' coordinates, each from its lowest corner on.
+fn corners(soup: &Soup) -> Vec<[u32; 3]> {
+    let lowest_first = |[a, b, c]: &[u32; 3]| match a.min(b).min(c) {
+        lowest if lowest == a => [*a, *b, *c],
+        lowest if lowest == b => [*b, *c, *a],
+        _ => [*c, *a, *b],
+    };
+    let mut found: Vec<[u32; 3]> = soup.triangles.iter().map(lowest_first).collect();
+    found.sort_unstable();
+    found
+}
+
+#[test]
+fn a_missing_triangle_is_made_again() {
+    let whole = cup().mended();
+    for i in 0..cup().0.len() {
+        let mut made = cup();
+        let lost = made.0.remove(i);
+        let soup = made.mended();
+        let filled = soup.mending.filled.clone().unwrap();
+        assert_eq!((filled.holes, filled.triangles, soup.mending.closed), (1, 1, true));
+        assert_eq!((&soup.vertices, corners(&soup)), (&whole.vertices, corners(&whole)));
+        let (low, high) = super::triangles::bounds(lost.into_iter());
+        assert!((filled.widest - (high - low).norm()).abs() < 1e-12);
+        assert!((Vector::from(filled.at) - 0.5 * (low + high)).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn an_edge_that_a_hole_crosses_is_made_again() {
+    let (whole, count) = (cup().mended(), cup().0.len());
+    let mut holes = [0; 2];
+    for i in 0..count {
+        for j in 0..i {
+            let mut made = cup();
+            made.0.remove(i);
+            made.0.remove(j);
+            let soup = made.mended();
+            assert!(soup.mending.closed);
+            assert!((volume(&soup) - volume(&whole)).abs() < 1e-9, "triangles {j} and {i}");
+            holes[soup.mending.filled.unwrap().holes - 1] += 1;
+        }
+    }
+    assert_eq!(holes, [3 * count / 2, count * (count - 1) / 2 - 3 * count / 2], "side by side, and apart");
+}
+
+#[test]
+fn many_holes_are_closed() {
+    let meridian: Vec<(f64, f64)> =
+        (1..40).map(|i| PI * f64::from(i) / 40.0).map(|a| (50.0 * a.sin(), -50.0 * a.cos())).collect();
+    let whole = turned(80, &meridian);
+    let mut made = whole.clone();
+    made.0.retain(|t| noise(t[0].x + t[1].x, t[2].y + t[1].z) > -0.9);
+    let (whole, soup) = (whole.mended(), made.mended());
+    let filled = soup.mending.filled.clone().unwrap();
+    assert!(soup.mending.closed && filled.holes > 100 && filled.triangles > filled.holes, "{filled:?}");
+    assert_eq!(soup.triangles.len(), whole.triangles.len());
+    assert!((volume(&soup) / volume(&whole) - 1.0).abs() < 2e-3);
+}
+
+#[test]
+fn openings_that_are_meant_stay() {
+    let is_kept = |made: Triangles| {
+        let soup = made.mended();
+        assert_eq!((soup.mending.filled.clone(), soup.mending.closed), (None, false));
+        assert_eq!(soup.triangles.len(), made.0.len());
+    };
+    let mut open_box = cube();
+    open_box.0.retain(|t| t.iter().any(|p| p.z < 10.0));
+    is_kept(open_box);
+    // a plate with a triangular window
+    let mut plate = field(8, |_, _| 0.0);
+    plate.0.retain(|t| t.iter().all(|p| p.z > -1.0));
+    plate.0.remove(60);
+    is_kept(plate);
+    let mut one = Triangles::default();
+    one.0.push([Vector::zeros(), Vector::x(), Vector::y()]);
+    is_kept(one);
+    // a hole, and another that is too large
+    let mut made = field(20, |_, _| 0.0);
+    let middle = Vector::new(50.0, 50.0, 0.0);
+    made.0.retain(|t| !t.iter().all(|p| (p - middle).amax() < 10.1));
+    made.0.remove(700);
+    is_kept(made);
 }

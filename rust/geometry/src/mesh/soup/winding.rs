@@ -12,15 +12,16 @@ const MINORITY: f64 = 0.25;
 /// A border that could span no more than this share of a surface is a hole in a body: which side is out is plain.
 const SMALL_HOLE: f64 = 0.01;
 
-/// Makes neighbours agree, and bodies have their material inside.
-pub fn turn_outward(vertices: &[Vector], triangles: &mut [[u32; 3]], mending: &mut Mending) {
-    let mut edges = Edges::of(triangles);
-    let patches = agree(vertices, triangles, &edges, mending);
-    if mending.turned > 0 {
-        edges = Edges::of(triangles); // a triangle turned over has its sides in another order
-    }
-    mending.closed = is_closed(triangles, &edges);
-    let bodies = Bodies::of(vertices, triangles, &edges, &patches);
+/// Makes bodies have their material inside: connected patches whose triangles agree.
+pub fn turn_outward(
+    vertices: &[Vector],
+    triangles: &mut [[u32; 3]],
+    edges: &Edges,
+    patches: &[u32],
+    mending: &mut Mending,
+) {
+    mending.closed = is_closed(triangles, edges);
+    let bodies = Bodies::of(vertices, triangles, edges, patches);
     let turned_over = bodies.inside_out(vertices, triangles);
     for (corners, body) in triangles.iter_mut().zip(&bodies.of_triangle) {
         if turned_over[*body as usize] {
@@ -30,9 +31,11 @@ pub fn turn_outward(vertices: &[Vector], triangles: &mut [[u32; 3]], mending: &m
     }
 }
 
-/// Turns triangles so that neighbours agree, the fewer of each connected patch; returns the patch of each triangle.
-fn agree(vertices: &[Vector], triangles: &mut [[u32; 3]], edges: &Edges, mending: &mut Mending) -> Vec<u32> {
-    let (patches, against) = followed(vertices, triangles, edges, mending);
+/// Turns triangles so that neighbours agree, the fewer of each connected patch; returns the patch of each triangle, and the
+/// edges.
+pub fn agree(vertices: &[Vector], triangles: &mut [[u32; 3]], mending: &mut Mending) -> (Vec<u32>, Edges) {
+    let edges = Edges::of(triangles);
+    let (patches, against) = followed(vertices, triangles, &edges, mending);
     let count = patches.iter().max().map_or(0, |last| *last as usize + 1);
     let (mut areas, mut has_border) = (vec![[0.0; 2]; count], vec![false; count]);
     for (t, patch) in patches.iter().enumerate() {
@@ -51,7 +54,9 @@ fn agree(vertices: &[Vector], triangles: &mut [[u32; 3]], edges: &Edges, mending
             }
         }
     }
-    patches
+    // a triangle turned over has its sides in another order
+    let edges = if mending.turned > 0 { Edges::of(triangles) } else { edges };
+    (patches, edges)
 }
 
 /// Follows neighbours: the connected patch of each triangle, and whether it winds against the patch's first one.
