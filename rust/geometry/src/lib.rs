@@ -34,7 +34,7 @@ pub use error::GeometryError;
 pub use facets::{Creased, Facets};
 pub use frame::Frame;
 pub use freeform::{CurvePoint, Foot, FootSearch, NurbsCurve, NurbsSurface, Pole, SurfacePoint};
-pub use mesh::{Bvh, Mending, Mesh, Node, Shape, Soup};
+pub use mesh::{Bvh, Filled, Mending, Mesh, Node, Shape, Soup};
 pub use plane::{circle_outline, rectangle_outline, PlaneCircle, PlanePiece, PlanePoint};
 pub use profile::{kinds, Curved, OutlinePart, Profile, ProfileDocument, ProfileReport, Straight};
 pub use shaping::{stage, walled, warped, DisplacementField, Stage, WallEnd, WallFault, WallShape, Walled, Warped};

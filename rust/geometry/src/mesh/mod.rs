@@ -7,7 +7,7 @@ mod soup;
 pub use bvh::{Bvh, Node};
 pub(crate) use nearest::nearest_on;
 pub(crate) use soup::weld_exact;
-pub use soup::{Mending, Shape, Soup};
+pub use soup::{Filled, Mending, Shape, Soup};
 
 use crate::{Frame, GeometryError, Vector};
 

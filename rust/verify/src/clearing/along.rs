@@ -14,6 +14,13 @@ pub(super) struct Along {
     moves: Vec<Option<ClearingMove>>,
 }
 
+/// The same of one layer.
+pub(super) struct LayerAlong {
+    layer: ClearedLayer,
+    /// By the number among the operation's moves.
+    moves: Vec<(usize, ClearingMove)>,
+}
+
 impl Along {
     pub fn new(work: &Work<'_>) -> Self {
         let mut length = 0.0;
@@ -35,15 +42,23 @@ impl Along {
         Self { engagement, moves: vec![None; ends.len()], ends }
     }
 
-    /// Adds what was measured in a layer: of each move in the layer in which it ends.
-    pub fn add(&mut self, layer: &Layer<'_>, inside: &[Inside<'_>], work: &Work<'_>) {
-        for inside in inside {
+    /// What was measured in a layer, by the move's number.
+    pub fn of_layer(&self, number: usize, layer: &Layer<'_>, inside: &[Inside<'_>], work: &Work<'_>) -> LayerAlong {
+        let moves = inside.iter().filter_map(|inside| {
             let index = work.own.partition_point(|own| own.segment.index < inside.own.segment.index);
-            if let (Some(found @ None), Some(travelled)) = (self.moves.get_mut(index), self.ends.get(index)) {
-                *found = layer.along(inside, self.engagement.layers.len(), *travelled);
+            Some((index, layer.along(inside, number, *self.ends.get(index)?)?))
+        });
+        LayerAlong { layer: layer.described(), moves: moves.collect() }
+    }
+
+    /// Adds the next layer: each move is in the one in which it ends.
+    pub fn add(&mut self, LayerAlong { layer, moves }: LayerAlong) {
+        for (index, found) in moves {
+            if let Some(known @ None) = self.moves.get_mut(index) {
+                *known = Some(found);
             }
         }
-        self.engagement.layers.push(layer.described());
+        self.engagement.layers.push(layer);
     }
 
     pub fn finished(self) -> OperationEngagement {

@@ -58,21 +58,29 @@ pub(crate) fn judged(
         let Some(work) = Work::of(operation, program, segments, assignment, subject, limits) else { continue };
         let body = Body::new(work.tool, subject.sheet.as_ref());
         let mut along = Along::new(&work);
-        work.by_layer(limits, |layer| {
-            let inside = layer.measured(&work.own, watch)?;
-            along.add(layer, &inside, &work);
-            let swept = layer.judged(&inside, watch, &mut faults)?;
+        watch.begin("measuring the engagement", work.heights.len());
+        let layers = work.by_layer(limits, |number, layer| {
+            let (beside, mut faults) = (watch.beside(), Vec::new());
+            let inside = layer.measured(&work.own, &beside)?;
+            let engaged = along.of_layer(number, layer, &inside, &work);
+            let swept = layer.judged(&inside, &beside, &mut faults)?;
             let grid = rest::Grid::new(layer);
-            let free = grid.free(layer, &body, subject, watch)?;
+            let free = grid.free(layer, &body, subject, &beside)?;
             let reached = grid.reached(layer, &free, &swept, subject);
-            findings.extend(rest::left(layer, &swept, (&grid, &reached)));
+            let mut findings: Vec<Finding> = rest::left(layer, &swept, (&grid, &reached)).into_iter().collect();
             findings.extend(beside::left(layer, &swept, (&grid, &free, &reached), &body, subject));
             if layer.clearing.left.iter().any(|left| *left > 0.0) {
                 let solids = Solids { body: &body, subject, limits };
-                faults.extend(to_leave::faults(layer, &work.own, (&grid, &free), &solids, watch)?);
+                faults.extend(to_leave::faults(layer, &work.own, (&grid, &free), &solids, &beside)?);
             }
-            Ok(())
+            watch.advance(1)?;
+            Ok((engaged, faults, findings))
         })?;
+        for (engaged, found, left) in layers {
+            along.add(engaged);
+            faults.extend(found);
+            findings.extend(left);
+        }
         engagement.push(along.finished());
         findings.extend(levels::missing(&work, &body, subject, limits, watch)?);
     }

@@ -4,6 +4,8 @@
 //! the smallest path's radius is free, and that hang together with one over a selected face (all of them where all stock is to be cleared), are where
 //! the tool is to have been: all stock within its radius of them is to be swept. The grid itself never asks for more than the tool can do: its positions are exact.
 
+use std::f64::consts::SQRT_2;
+
 use rayon::prelude::*;
 use styluscam_geometry::PlanePiece;
 use styluscam_motion::{Cancelled, Watch};
@@ -22,6 +24,8 @@ use crate::tolerances::{ROUGH, SLACK};
 const SPACING: f64 = 0.1;
 /// Positions at most.
 const MOST: f64 = 40_000.0;
+/// Positions along the side of the squares for which it is asked first whether the tool is free of the part.
+const BLOCK: usize = 16;
 /// Share of what the tool reaches that may be left: slivers.
 const SHARE: f64 = 1e-3;
 /// How far from what is swept stock may be left, in tool radii.
@@ -65,6 +69,15 @@ pub(super) fn left(layer: &Layer<'_>, swept: &[PlanePiece], (grid, reached): (&G
     let finding = Finding::of_all(FindingKind::Uncleared, Severity::Error, message);
     let limit = Some(THICK * layer.radius);
     Some(Finding { position: Some([x, y, layer.floor]), value_mm: Some(thick), value: Some(thick), limit, ..finding })
+}
+
+/// A square of positions.
+#[derive(Clone, Copy)]
+struct Block {
+    column: usize,
+    row: usize,
+    /// Positions along its side, a power of 2.
+    size: usize,
 }
 
 /// Positions over the stock, and around it as far as the tool's centre may matter.
@@ -116,14 +129,51 @@ impl Grid {
         watch: &Watch,
     ) -> Result<Vec<bool>, Cancelled> {
         let prober = Prober { body, mesh: subject.mesh, bvh: subject.bvh };
-        let below = below(subject);
-        let is_free = |node: usize| is_free(&prober, layer, below, self.at(node));
-        let row = |row: usize| {
+        let (below, nearest) = (below(subject), |at, below| nearest(&prober, layer, below, at));
+        let mut free = vec![false; self.columns * self.rows];
+        let bands = free.par_chunks_mut(BLOCK * self.columns).enumerate();
+        bands.try_for_each(|(band, free)| {
             watch.advance(0)?;
-            Ok((row * self.columns..(row + 1) * self.columns).map(is_free).collect())
-        };
-        let rows: Result<Vec<Vec<bool>>, Cancelled> = (0..self.rows).into_par_iter().map(row).collect();
-        Ok(rows?.concat())
+            for column in (0..self.columns).step_by(BLOCK) {
+                let block = Block { column, row: band * BLOCK, size: BLOCK };
+                self.mark_free(block, free, band * BLOCK, below, &nearest);
+            }
+            Ok(())
+        })?;
+        Ok(free)
+    }
+
+    /// Marks the free positions of a block, in those of all columns from a row on. A tool that is moved comes nearer to the part, or out
+    /// of it, by no more than it is moved: so one answer is often that of the whole block.
+    fn mark_free(
+        &self,
+        Block { column, row, size }: Block,
+        free: &mut [bool],
+        first_row: usize,
+        below: f64,
+        nearest: &impl Fn([f64; 2], f64) -> Option<f64>,
+    ) {
+        let (columns, rows) = (column..self.columns.min(column + size), row..self.rows.min(row + size));
+        if columns.is_empty() || rows.is_empty() {
+            return;
+        }
+        let half = 0.5 * (size - 1) as f64 * self.spacing;
+        let [x, y] = self.at(row * self.columns + column);
+        let reach = half * SQRT_2;
+        let found = nearest([x + half, y + half], below + reach);
+        if size > 1 && found.is_some_and(|distance| distance >= below - reach) {
+            let size = size / 2;
+            for [column, row] in
+                [[column, row], [column + size, row], [column, row + size], [column + size, row + size]]
+            {
+                self.mark_free(Block { column, row, size }, free, first_row, below, nearest);
+            }
+            return;
+        }
+        for row in rows {
+            let from = (row - first_row) * self.columns;
+            free[from + columns.start..from + columns.end].fill(found.is_none());
+        }
     }
 
     /// Where the tool is to have been.
@@ -244,9 +294,15 @@ pub(super) fn below(subject: &Subject) -> f64 {
 }
 
 /// Whether the tool is free of the part at a position of the layer, lowered by what is to stay under it.
-pub(super) fn is_free(prober: &Prober<'_>, layer: &Layer<'_>, below: f64, [x, y]: [f64; 2]) -> bool {
+pub(super) fn is_free(prober: &Prober<'_>, layer: &Layer<'_>, below: f64, at: [f64; 2]) -> bool {
+    nearest(prober, layer, below, at).is_none()
+}
+
+/// Distance from the tool, lowered so, to the part, if that is less than `below`; negative in it, mm.
+fn nearest(prober: &Prober<'_>, layer: &Layer<'_>, below: f64, [x, y]: [f64; 2]) -> Option<f64> {
     let stroke = Stroke::still(prober.body.position([x, y, layer.floor - layer.clearing.left[1]]));
-    prober.survey(Question { stroke, positions: [None; 2], below }, None).deepest.is_none()
+    let seen = prober.survey(Question { stroke, positions: [None; 2], below }, None);
+    seen.deepest.map(|passed| passed.touch.value)
 }
 
 /// Whether a point lies in a triangle in plan.

@@ -1,5 +1,6 @@
 //! The moves of an operation that clears, layer by layer.
 
+use rayon::prelude::*;
 use styluscam_geometry::{Stock, Tool};
 use styluscam_motion::{Cancelled, Program};
 
@@ -55,18 +56,19 @@ impl<'a> Work<'a> {
         Some(Self { operation, clearing, tool, stock, own, before, is_even, heights })
     }
 
-    /// Looks at one layer after the other, from the top down.
-    pub fn by_layer(
+    /// What is found in each layer, by its number, from the top down.
+    pub fn by_layer<T: Send>(
         &self,
         limits: &Limits,
-        mut look: impl FnMut(&Layer<'_>) -> Result<(), Cancelled>,
-    ) -> Result<(), Cancelled> {
-        let mut top = self.clearing.top;
-        for floor in &self.heights {
-            self.in_layer([top, *floor], limits, &mut look)?;
-            top = *floor;
-        }
-        Ok(())
+        look: impl Fn(usize, &Layer<'_>) -> Result<T, Cancelled> + Sync,
+    ) -> Result<Vec<T>, Cancelled> {
+        let tops = std::iter::once(self.clearing.top).chain(self.heights.iter().copied());
+        let layers: Vec<[f64; 2]> = tops.zip(&self.heights).map(|(top, floor)| [top, *floor]).collect();
+        layers
+            .into_par_iter()
+            .enumerate()
+            .map(|(number, layer)| self.in_layer(layer, limits, |layer| look(number, layer)))
+            .collect()
     }
 
     /// Looks at what lies between two heights.

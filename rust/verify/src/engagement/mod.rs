@@ -21,6 +21,7 @@ mod error;
 mod open;
 mod rim;
 mod runs;
+mod sweeps;
 mod walk;
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The tool's rim at one position, and where it crosses circles and lines.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use styluscam_geometry::{PlanePiece, PlanePoint};
 
@@ -22,7 +22,7 @@ impl Rim {
 
     /// Radius of a disc about the interval's middle that holds the interval, mm.
     pub fn reach(&self, [from, to]: [f64; 2]) -> f64 {
-        2.0 * self.radius * libm::sin((0.25 * (to - from)).min(0.5 * std::f64::consts::PI))
+        2.0 * self.radius * libm::sin((0.25 * (to - from)).min(0.5 * PI))
     }
 
     /// Appends the directions in which the rim crosses a circle.
@@ -54,6 +54,32 @@ impl Rim {
         let half = libm::acos(cos);
         let middle = libm::atan2(left[1], left[0]);
         found.extend([(middle - half).rem_euclid(TAU), (middle + half).rem_euclid(TAU)]);
+    }
+
+    /// The directions in an interval, and its end, in which the rim passes from one square cell of a size to the next, in ascending order.
+    pub fn crossings_with_grid(&self, [from, to]: [f64; 2], size: f64, found: &mut Vec<f64>) {
+        found.clear();
+        // in a quarter each coordinate goes one way: a line is crossed once
+        for quarter in 0..4 {
+            let [first, last] = [quarter, quarter + 1].map(|i| f64::from(i) * FRAC_PI_2);
+            let (start, end) = (from.max(first), to.min(last));
+            if start >= end {
+                continue;
+            }
+            let ends = [self.at(start), self.at(end)];
+            for axis in 0..2 {
+                let (low, high) = (ends[0][axis].min(ends[1][axis]) / size, ends[0][axis].max(ends[1][axis]) / size);
+                let mut line = libm::ceil(low);
+                while line <= high {
+                    let share = ((line * size - self.centre[axis]) / self.radius).clamp(-1.0, 1.0);
+                    found.push(direction_in(quarter, axis, share));
+                    line += 1.0;
+                }
+            }
+        }
+        found.retain(|direction| *direction > from && *direction < to);
+        found.sort_by(f64::total_cmp);
+        found.push(to);
     }
 
     /// Leaves of an interval what lies outside the disc of `radius` swept along a piece.
@@ -114,5 +140,16 @@ impl Rim {
             start = end;
         }
         left.extend(kept);
+    }
+}
+
+/// The direction in a quarter of the circle of which a cosine (axis 0) or sine (axis 1) is known.
+fn direction_in(quarter: i32, axis: usize, share: f64) -> f64 {
+    match (axis, quarter) {
+        (0, 0 | 1) => libm::acos(share),
+        (0, _) => TAU - libm::acos(share),
+        (_, 0) => libm::asin(share),
+        (_, 1 | 2) => PI - libm::asin(share),
+        (_, _) => TAU + libm::asin(share),
     }
 }

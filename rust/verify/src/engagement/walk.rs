@@ -7,21 +7,18 @@ use styluscam_geometry::{PlanePiece, PlanePoint};
 use styluscam_motion::Watch;
 
 use super::area::Area;
-use super::cells::Cells;
-use super::cleared::Cleared;
 use super::error::EngagementError;
 use super::open::Open;
 use super::rim::Rim;
 use super::runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, PROBE, RECENT, STEP};
+use super::sweeps::{Search, Sweeps};
 
 /// Ends of runs that lie nearer than this are one position, mm.
 const SAME: f64 = 1e-6;
 /// Turns above this are corners of the path, rad.
 const CORNER: f64 = 0.01;
-/// How far apart in the path pieces are that are looked at first.
-const APART: usize = 16;
-/// So many pieces are looked at before, from the last one of the position before on.
-const FOLLOWING: u32 = 3;
+/// Side of the cells by which it is known what is swept, in radii of the tool. 1/2 to 1/8 were measured (docs/performance.md).
+const CELL: f64 = 0.25;
 /// Circles on which it is looked for what stands under a tool that goes straight down.
 const RINGS: u32 = 8;
 /// The watch is asked after so many positions.
@@ -33,9 +30,7 @@ pub struct Walk {
     chip: f64,
     stock: Area,
     pocket: Area,
-    swept: Vec<PlanePiece>,
-    near: Cells,
-    cleared: Cleared,
+    swept: Sweeps,
     /// Pieces that are recent still, with the length of the path up to their end.
     pending: VecDeque<(PlanePiece, f64)>,
     /// Length of the path so far, mm.
@@ -44,27 +39,28 @@ pub struct Walk {
     behind: f64,
     open: Open,
     scratch: Vec<f64>,
-    /// Number of the swept piece that was looked at last.
-    covering: u32,
+    search: Search,
 }
 
 impl Walk {
     pub fn new(ground: &Ground<'_>) -> Self {
         let radius = ground.radius;
+        let mut swept = Sweeps::new(CELL * radius);
+        for path in ground.cleared {
+            path.pieces().iter().for_each(|piece| swept.insert(piece, path.radius + ground.chip));
+        }
         Self {
             radius,
             chip: ground.chip,
             stock: Area::new(ground.stock, 2.0 * radius),
             pocket: Area::new(ground.pocket, 2.0 * radius),
-            swept: Vec::new(),
-            near: Cells::new(0.5 * radius, 2.0 * radius),
-            cleared: Cleared::new(ground.cleared, radius + ground.chip),
+            swept,
             pending: VecDeque::new(),
             travelled: 0.0,
             behind: 0.0,
             open: Open::default(),
             scratch: Vec::new(),
-            covering: 0,
+            search: Search::default(),
         }
     }
 
@@ -204,8 +200,7 @@ impl Walk {
             if end > length {
                 break;
             }
-            self.near.insert(self.swept.len() as u32, &piece);
-            self.swept.push(piece);
+            self.swept.insert(&piece, self.radius + self.chip);
             self.pending.pop_front();
         }
     }
@@ -218,7 +213,7 @@ impl Walk {
 
     /// Keeps of the open directions those in which stock stands on a circle.
     fn keep_standing(&mut self, rim: &Rim) {
-        let (exact, thicker) = (self.radius, self.radius + self.chip);
+        let exact = self.radius;
         let scratch = &mut self.scratch;
         // first what leaves least to look at: in most places the stock's outlines
         for area in [&self.pocket, &self.stock] {
@@ -234,21 +229,8 @@ impl Walk {
             let swept = if *end > self.behind { piece.up_to(1.0 - (end - self.behind) / length) } else { *piece };
             self.open.keep(|interval, left| rim.outside_sweep(interval, &swept, exact, scratch, left));
         }
-        for number in likely_first(self.near.near(rim.centre), self.covering) {
-            if self.open.is_empty() {
-                break;
-            }
-            if let Some(piece) = self.swept.get(number as usize) {
-                self.open.keep(|interval, left| rim.outside_sweep(interval, piece, thicker, scratch, left));
-                self.covering = number;
-            }
-        }
-        for (piece, radius) in self.cleared.near(rim.centre) {
-            if self.open.is_empty() {
-                break;
-            }
-            self.open.keep(|interval, left| rim.outside_sweep(interval, piece, radius + self.chip, scratch, left));
-        }
+        let (swept, search) = (&self.swept, &mut self.search);
+        self.open.keep(|interval, left| swept.outside(rim, interval, search, left));
     }
 
     /// What stands in the open directions.
@@ -256,14 +238,6 @@ impl Walk {
         let width = heading.map_or(0.0, |heading| self.open.width(heading, self.radius));
         Engaged { at, travelled, angle: self.open.total(), width, clearance: self.pocket.clearance(at) }
     }
-}
-
-/// Numbers of pieces: some that follow one that was the last to be needed at the position before, for a tool that goes along above its own path is
-/// covered by one of them alone; then each [`APART`]th from the last back, and those between. Pieces that follow each other cover the same
-/// directions.
-fn likely_first(numbers: &[u32], covering: u32) -> impl Iterator<Item = u32> + '_ {
-    let from = |first: usize| numbers.iter().rev().skip(first).step_by(APART).copied();
-    (covering..covering.saturating_add(FOLLOWING)).chain((0..APART).flat_map(from))
 }
 
 /// Angle between two headings, rad.

@@ -36,6 +36,7 @@ pub struct Mending {
 /// Holes that were closed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Filled {
+    /// How many.
     pub holes: usize,
     /// What they were closed with.
     pub triangles: usize,

@@ -1,0 +1,179 @@
+//! What discs have swept, by the square cells of the plane: cells that a disc has covered whole, and the sweeps that end in
+//! others. Along the rim only what ends where it passes is looked at, exactly.
+
+use std::collections::HashMap;
+use std::f64::consts::SQRT_2;
+
+use styluscam_geometry::{PlanePiece, PlanePoint};
+
+use super::rim::Rim;
+
+/// Cells along the side of a tile.
+const TILE: i64 = 32;
+/// Nothing has come near a cell, and one sweep has covered it: else it has a number in the lists, and 2 more.
+const NONE: u32 = 0;
+const WHOLE: u32 = 1;
+const LISTS: u32 = 2;
+/// So many sweeps are looked at first, from the one on that was needed last: a tool that goes along above its own path is covered
+/// by one of them alone.
+const FOLLOWING: u32 = 3;
+
+/// Sweeps of discs along pieces.
+#[derive(Debug)]
+pub struct Sweeps {
+    /// Side of a cell, mm.
+    size: f64,
+    /// Pieces, with the radius of the disc that is swept along each, mm.
+    sweeps: Vec<(PlanePiece, f64)>,
+    tiles: HashMap<[i64; 2], Box<[u32]>>,
+    /// Numbers of the sweeps that end in a cell.
+    lists: Vec<Vec<u32>>,
+}
+
+/// What one search leaves for the next.
+#[derive(Debug, Default)]
+pub struct Search {
+    /// Number of the sweep that was needed last.
+    covering: u32,
+    crossings: Vec<f64>,
+    cuts: Vec<f64>,
+    open: Vec<[f64; 2]>,
+    spare: Vec<[f64; 2]>,
+}
+
+impl Sweeps {
+    /// None yet, in cells of a size, mm.
+    pub fn new(size: f64) -> Self {
+        Self { size, sweeps: Vec::new(), tiles: HashMap::new(), lists: Vec::new() }
+    }
+
+    /// Sweeps a disc along a piece.
+    pub fn insert(&mut self, piece: &PlanePiece, radius: f64) {
+        let number = self.sweeps.len() as u32;
+        self.sweeps.push((*piece, radius));
+        // long pieces in parts, for their boxes would hold much that is far from them
+        let parts = libm::ceil(piece.length() / (2.0 * radius)).max(1.0);
+        for part in 0..parts as usize {
+            let ends = [part, part + 1].map(|i| piece.at(i as f64 / parts));
+            let sag = if piece.circle.is_some() { 0.5 * piece.length() / parts } else { 0.0 };
+            let low = [0, 1].map(|i| ends[0][i].min(ends[1][i]) - radius - sag);
+            let high = [0, 1].map(|i| ends[0][i].max(ends[1][i]) + radius + sag);
+            let ([x0, y0], [x1, y1]) = (self.cell(low), self.cell(high));
+            for x in x0..=x1 {
+                for y in y0..=y1 {
+                    self.reach([x, y], number);
+                }
+            }
+        }
+    }
+
+    /// Notes what a sweep does to a cell.
+    fn reach(&mut self, cell: [i64; 2], number: u32) {
+        let (tile, at) = place(cell);
+        let known = self.tiles.get(&tile).map_or(NONE, |tile| tile[at]);
+        if known == WHOLE {
+            return;
+        }
+        let (piece, radius) = &self.sweeps[number as usize];
+        let middle = cell.map(|i| (i as f64 + 0.5) * self.size);
+        let (distance, half) = (piece.distance(middle), self.size / SQRT_2);
+        if distance >= radius + half {
+            return;
+        }
+        let state = &mut self.tiles.entry(tile).or_insert_with(|| vec![NONE; (TILE * TILE) as usize].into())[at];
+        if distance <= radius - half {
+            if *state >= LISTS {
+                self.lists[(*state - LISTS) as usize] = Vec::new();
+            }
+            *state = WHOLE;
+            return;
+        }
+        if *state == NONE {
+            *state = self.lists.len() as u32 + LISTS;
+            self.lists.push(Vec::new());
+        }
+        let list = &mut self.lists[(*state - LISTS) as usize];
+        if list.last() != Some(&number) {
+            list.push(number);
+        }
+    }
+
+    fn cell(&self, point: PlanePoint) -> [i64; 2] {
+        point.map(|x| libm::floor(x / self.size) as i64)
+    }
+
+    /// Leaves of an interval of a rim what lies outside of all sweeps.
+    pub fn outside(&self, rim: &Rim, interval: [f64; 2], search: &mut Search, left: &mut Vec<[f64; 2]>) {
+        search.open.clear();
+        search.open.push(interval);
+        for number in search.covering..search.covering.saturating_add(FOLLOWING) {
+            self.take(rim, number, search);
+            if search.open.is_empty() {
+                return;
+            }
+        }
+        let open = std::mem::take(&mut search.open);
+        for part in &open {
+            self.outside_in_cells(rim, *part, search, left);
+        }
+        search.open = open;
+    }
+
+    /// The same, cell by cell.
+    fn outside_in_cells(&self, rim: &Rim, interval: [f64; 2], search: &mut Search, left: &mut Vec<[f64; 2]>) {
+        let mut cuts = std::mem::take(&mut search.cuts);
+        rim.crossings_with_grid(interval, self.size, &mut cuts);
+        let mut from = interval[0];
+        for to in cuts.drain(..) {
+            if let Some(ending) = self.ending_at(rim.at(0.5 * (from + to))) {
+                search.open.clear();
+                search.open.push([from, to]);
+                for number in ending {
+                    self.take(rim, *number, search);
+                    if search.open.is_empty() {
+                        break;
+                    }
+                }
+                search.open.iter().for_each(|part| join(left, *part));
+            }
+            from = to;
+        }
+        search.cuts = cuts;
+    }
+
+    /// Takes a sweep off what is open.
+    fn take(&self, rim: &Rim, number: u32, search: &mut Search) {
+        let Search { crossings, open, spare, .. } = search;
+        let Some((piece, radius)) = self.sweeps.get(number as usize) else { return };
+        spare.clear();
+        open.iter().for_each(|part| rim.outside_sweep(*part, piece, *radius, crossings, spare));
+        std::mem::swap(open, spare);
+        if open.is_empty() {
+            search.covering = number;
+        }
+    }
+
+    /// The sweeps that end in the cell of a point; none where one covers it.
+    fn ending_at(&self, point: PlanePoint) -> Option<&[u32]> {
+        let (tile, at) = place(self.cell(point));
+        match self.tiles.get(&tile).map_or(NONE, |tile| tile[at]) {
+            NONE => Some(&[]),
+            WHOLE => None,
+            list => Some(&self.lists[(list - LISTS) as usize]),
+        }
+    }
+}
+
+/// Appends an interval, to the last one where it goes on from there.
+fn join(left: &mut Vec<[f64; 2]>, part: [f64; 2]) {
+    match left.last_mut() {
+        Some(last) if last[1] >= part[0] => last[1] = part[1],
+        Some(_) | None => left.push(part),
+    }
+}
+
+/// The tile of a cell, and its number in it.
+fn place(cell: [i64; 2]) -> ([i64; 2], usize) {
+    let [x, y] = cell.map(|i| i.rem_euclid(TILE));
+    (cell.map(|i| i.div_euclid(TILE)), (x * TILE + y) as usize)
+}
