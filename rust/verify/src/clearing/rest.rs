@@ -311,3 +311,35 @@ fn is_within([x, y]: [f64; 2], [a, b, c]: [[f64; 2]; 3]) -> bool {
     let sides = [side(a, b), side(b, c), side(c, a)];
     sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn squares_are_free_where_all_their_positions_are(
+            discs in proptest::collection::vec((0.0..10.0, 0.0..10.0, 0.1..3.0), 0..12),
+            [columns, rows] in [1usize..60, 1usize..60],
+            below in -0.5..0.5,
+        ) {
+            let grid = Grid { low: [0.0; 2], spacing: 0.2, columns, rows, in_stock: Vec::new() };
+            let distance = |[x, y]: [f64; 2]| {
+                let to = |(u, v, radius): &(f64, f64, f64)| libm::hypot(x - u, y - v) - radius;
+                discs.iter().map(to).fold(f64::INFINITY, f64::min)
+            };
+            let nearest = |at, below| Some(distance(at)).filter(|distance| *distance < below);
+            let mut free = vec![false; columns * rows];
+            for (band, free) in free.chunks_mut(BLOCK * columns).enumerate() {
+                for column in (0..columns).step_by(BLOCK) {
+                    let block = Block { column, row: band * BLOCK, size: BLOCK };
+                    grid.mark_free(block, free, band * BLOCK, below, &nearest);
+                }
+            }
+            let expected: Vec<bool> = (0..columns * rows).map(|node| nearest(grid.at(node), below).is_none()).collect();
+            prop_assert_eq!(free, expected);
+        }
+    }
+}

@@ -66,9 +66,8 @@ impl Rim {
             if start >= end {
                 continue;
             }
-            let ends = [self.at(start), self.at(end)];
-            for axis in 0..2 {
-                let (low, high) = (ends[0][axis].min(ends[1][axis]) / size, ends[0][axis].max(ends[1][axis]) / size);
+            for (axis, (a, b)) in self.at(start).into_iter().zip(self.at(end)).enumerate() {
+                let (low, high) = (a.min(b) / size, a.max(b) / size);
                 let mut line = libm::ceil(low);
                 while line <= high {
                     let share = ((line * size - self.centre[axis]) / self.radius).clamp(-1.0, 1.0);

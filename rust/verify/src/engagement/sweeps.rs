@@ -177,3 +177,78 @@ fn place(cell: [i64; 2]) -> ([i64; 2], usize) {
     let [x, y] = cell.map(|i| i.rem_euclid(TILE));
     (cell.map(|i| i.div_euclid(TILE)), (x * TILE + y) as usize)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Coordinates, mm; also those of lines between cells.
+    fn coordinate() -> impl Strategy<Value = f64> {
+        prop_oneof![-6.0..6.0, (-12i32..12).prop_map(|i| 0.5 * f64::from(i))]
+    }
+
+    fn sweep() -> impl Strategy<Value = (PlanePiece, f64)> {
+        let ends = [coordinate(), coordinate(), coordinate(), coordinate()];
+        let bulge = prop_oneof![Just(0.0), -2.0..2.0];
+        let piece = |([x, y, u, v], bulge): ([f64; 4], f64)| PlanePiece::new([x, y], [u, v], bulge);
+        let still = [coordinate(), coordinate()].prop_map(|at| PlanePiece::new(at, at, 0.0));
+        (prop_oneof![(ends, bulge).prop_map(piece), still], prop_oneof![Just(1.0), 0.4..3.0])
+    }
+
+    fn interval() -> impl Strategy<Value = [f64; 2]> {
+        prop_oneof![
+            Just([0.0, TAU]),
+            (0.0..TAU, 0.01..1.0).prop_map(|(from, share)| [from, from + share * (TAU - from)])
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_left_is_what_no_sweep_covers(
+            sweeps in proptest::collection::vec(sweep(), 0..20),
+            rims in proptest::collection::vec((coordinate(), coordinate(), 0.2..3.0, interval()), 1..8),
+            size in 0.1..1.5,
+        ) {
+            let mut found = Sweeps::new(size);
+            sweeps.iter().for_each(|(piece, radius)| found.insert(piece, *radius));
+            let (mut search, mut left, mut crossings) = (Search::default(), Vec::new(), Vec::new());
+            for (x, y, radius, interval) in rims {
+                let rim = Rim { centre: [x, y], radius };
+                left.clear();
+                found.outside(&rim, interval, &mut search, &mut left);
+                let mut expected = vec![interval];
+                for (piece, radius) in &sweeps {
+                    let mut spare = Vec::new();
+                    expected.iter().for_each(|part| rim.outside_sweep(*part, piece, *radius, &mut crossings, &mut spare));
+                    expected = spare;
+                }
+                let total = |parts: &[[f64; 2]]| parts.iter().map(|[from, to]| to - from).sum::<f64>();
+                prop_assert!((total(&left) - total(&expected)).abs() < 1e-6, "{left:?} {expected:?}");
+                prop_assert!(left.windows(2).all(|pair| pair[0][1] < pair[1][0]), "{left:?}");
+                for [from, to] in left.iter().filter(|[from, to]| to - from > 1e-6) {
+                    let middle = rim.at(0.5 * (from + to));
+                    prop_assert!(sweeps.iter().all(|(piece, radius)| piece.distance(middle) > radius - 1e-9));
+                }
+            }
+        }
+
+        #[test]
+        fn a_grid_cuts_a_rim_into_pieces_that_lie_in_one_cell_each(
+            [x, y] in [coordinate(), coordinate()], radius in 0.2..3.0, interval in interval(), size in 0.1..1.5,
+        ) {
+            let (rim, sweeps) = (Rim { centre: [x, y], radius }, Sweeps::new(size));
+            let mut cuts = Vec::new();
+            rim.crossings_with_grid(interval, size, &mut cuts);
+            prop_assert_eq!(cuts.last(), Some(&interval[1]));
+            let starts = std::iter::once(interval[0]).chain(cuts.iter().copied());
+            for (from, to) in starts.zip(&cuts).filter(|(from, to)| *to - from > 1e-6) {
+                let inside = [0.01, 0.3, 0.5, 0.7, 0.99].map(|share| sweeps.cell(rim.at(from + share * (to - from))));
+                prop_assert!(inside.iter().all(|cell| *cell == inside[0]), "{from} {to} {inside:?}");
+            }
+        }
+    }
+}

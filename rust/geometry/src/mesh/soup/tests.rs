@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::triangles::area_vector;
+use super::triangles::{area_vector, bounds};
 use super::*;
 
 /// Triangles by their corners' coordinates.
@@ -461,7 +461,7 @@ fn a_missing_triangle_is_made_again() {
         let filled = soup.mending.filled.clone().unwrap();
         assert_eq!((filled.holes, filled.triangles, soup.mending.closed), (1, 1, true));
         assert_eq!((&soup.vertices, corners(&soup)), (&whole.vertices, corners(&whole)));
-        let (low, high) = super::triangles::bounds(lost.into_iter());
+        let (low, high) = bounds(lost.into_iter());
         assert!((filled.widest - (high - low).norm()).abs() < 1e-12);
         assert!((Vector::from(filled.at) - 0.5 * (low + high)).norm() < 1e-12);
     }
