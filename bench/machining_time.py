@@ -548,6 +548,8 @@ def main() -> None:
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--keep", type=Path, help="folder for the programs")
     options = parser.parse_args()
+    if options.keep is not None:
+        options.keep.mkdir(parents=True, exist_ok=True)
     rows: list[list[str]] = []
     better = 0
     opencamlib_debian.unpacked(FREECAD)  # once, before all ask for it

@@ -18,6 +18,8 @@ const MOST_SIDES: usize = 12;
 const SMALL: f64 = 0.1;
 /// Triangles that lean by more from a neighbour fold back on it, rad: 150 degrees.
 const FOLDED: f64 = 2.618;
+/// Triangles that are less high over their longest side are slits, whose normals say nothing, mm.
+const SLIT: f64 = 0.01;
 /// A triangle's height over its longest side is no less than this share of that, or it is flat.
 const FLAT: f64 = 1e-6;
 
@@ -133,8 +135,8 @@ struct Best {
     bend: f64,
     /// The third corner of the triangle over the stretch, among the ring's.
     corner: usize,
-    /// Of that triangle, or of the one beyond a side of the ring.
-    normal: Vector,
+    /// Of that triangle, or of the one beyond a side of the ring; none of a slit.
+    normal: Option<Vector>,
 }
 
 impl Rims<'_> {
@@ -149,7 +151,7 @@ impl Rims<'_> {
         // by first and last corner of a stretch
         let mut best: Vec<Vec<Option<Best>>> = vec![vec![None; count]; count];
         for (i, half) in sides.iter().enumerate().take(count - 1) {
-            best[i][i + 1] = Some(Best { bend: 0.0, corner: i, normal: normal(*half)? });
+            best[i][i + 1] = Some(Best { bend: 0.0, corner: i, normal: Some(normal(*half)?) });
         }
         let last = normal(sides[count - 1])?;
         for span in 2..count {
@@ -185,26 +187,27 @@ impl Rims<'_> {
             return None;
         }
         let with = |corner: usize| {
-            let normal = self.normal_of([first, corner, end].map(at))?;
-            let bent = |from: usize, to: usize, other: Vector| {
-                let angle = normal.angle(&other);
+            let normal = normal_of([first, corner, end].map(at))?;
+            let bent = |from: usize, to: usize, other: Option<Vector>| {
+                let angle = normal.zip(other).map_or(0.0, |(normal, other)| normal.angle(&other));
                 (angle < FOLDED).then(|| angle * (at(to) - at(from)).norm())
             };
             let [before, after] = [best[first][corner]?, best[corner][end]?];
             let bend =
                 before.bend + after.bend + bent(first, corner, before.normal)? + bent(corner, end, after.normal)?;
-            let bend = bend + beyond.map_or(Some(0.0), |beyond| bent(first, end, beyond))?;
+            let bend = bend + bent(first, end, beyond)?;
             Some(Best { bend, corner, normal })
         };
         (first + 1..end).filter_map(with).min_by(|a, b| a.bend.total_cmp(&b.bend))
     }
+}
 
-    /// The normal of a triangle that is not flat.
-    fn normal_of(&self, [a, b, c]: [Vector; 3]) -> Option<Vector> {
-        let twice = (b - a).cross(&(c - a));
-        let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
-        (twice.norm() > FLAT * longest).then(|| twice.normalize())
-    }
+/// The normal of a triangle, if it is no slit; none of a flat one.
+fn normal_of([a, b, c]: [Vector; 3]) -> Option<Option<Vector>> {
+    let twice = (b - a).cross(&(c - a));
+    let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+    let height = twice.norm() / longest;
+    (height > FLAT * longest).then(|| (height > SLIT).then(|| twice.normalize()))
 }
 
 impl Filled {

@@ -500,6 +500,21 @@ fn many_holes_are_closed() {
 }
 
 #[test]
+fn slits_are_closed() {
+    // along an upright edge of the cup, whose lower end one side has 3 um aside, and a corner has been torn open
+    let whole = cup();
+    let corner = Vector::new(10.0, 0.0, 0.0);
+    let mut made = whole.clone();
+    for triangle in made.0.iter_mut().filter(|t| t.iter().any(|p| p.y < -1.0)) {
+        triangle.iter_mut().filter(|p| (**p - corner).norm() < 1e-9).for_each(|p| p.z += 0.003);
+    }
+    let soup = made.mended();
+    let filled = soup.mending.filled.clone().unwrap();
+    assert!(soup.mending.closed && filled.holes == 1, "{:?}", soup.mending);
+    assert!((volume(&soup) - volume(&whole.mended())).abs() < 0.1);
+}
+
+#[test]
 fn openings_that_are_meant_stay() {
     let is_kept = |made: Triangles| {
         let soup = made.mended();
