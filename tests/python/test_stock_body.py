@@ -197,7 +197,7 @@ def test_the_body_moves_with_the_part(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("body", "where", "code", "words"),
     [
-        (box(LOW, HIGH)[:-1], "setup.stock.file", "not-closed", "not closed near"),
+        (box(LOW, HIGH)[:-2], "setup.stock.file", "not-closed", "not closed near"),
         (box((1.0, -1.0, 0.0), HIGH), "setup.stock", "conflict", "sticks out"),
         (box(LOW, (21.0, 17.0, TOP - 0.1)), "setup.stock", "conflict", "sticks out"),
         (np.concatenate([box(LOW, HIGH), VOID]), "setup.stock", "conflict", "sticks out"),

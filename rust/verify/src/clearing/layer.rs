@@ -103,6 +103,11 @@ impl Layer<'_> {
         Ok(swept.flat_map(Inside::centres).collect())
     }
 
+    /// Height of the floor, lowered by what is to stay on it, mm.
+    pub fn lowered(&self) -> f64 {
+        self.floor - self.clearing.left[1]
+    }
+
     /// What the moves of its operation that lie in the layer, or below it, engage just under its top.
     pub fn measured<'a>(&self, own: &'a [Own<'a>], watch: &Watch) -> Result<Vec<Inside<'a>>, Cancelled> {
         let inside: Vec<(&Own, Doing)> = own.iter().filter_map(|own| Some((own, self.doing(own)?))).collect();

@@ -45,6 +45,9 @@ pub(crate) struct Judged {
 ///
 /// # Errors
 /// `Cancelled`.
+/// Steps of a layer that are counted as done.
+const STEPS: usize = 4;
+
 pub(crate) fn judged(
     program: &Program,
     segments: &[Segment],
@@ -58,14 +61,17 @@ pub(crate) fn judged(
         let Some(work) = Work::of(operation, program, segments, assignment, subject, limits) else { continue };
         let body = Body::new(work.tool, subject.sheet.as_ref());
         let mut along = Along::new(&work);
-        watch.begin("measuring the engagement", work.heights.len());
+        watch.begin("measuring the engagement", STEPS * work.heights.len());
         let layers = work.by_layer(limits, |number, layer| {
             let (beside, mut faults) = (watch.beside(), Vec::new());
             let inside = layer.measured(&work.own, &beside)?;
+            watch.advance(1)?;
             let engaged = along.of_layer(number, layer, &inside, &work);
             let swept = layer.judged(&inside, &beside, &mut faults)?;
+            watch.advance(1)?;
             let grid = rest::Grid::new(layer);
             let free = grid.free(layer, &body, subject, &beside)?;
+            watch.advance(1)?;
             let reached = grid.reached(layer, &free, &swept, subject);
             let mut findings: Vec<Finding> = rest::left(layer, &swept, (&grid, &reached)).into_iter().collect();
             findings.extend(beside::left(layer, &swept, (&grid, &free, &reached), &body, subject));

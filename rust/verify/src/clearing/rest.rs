@@ -129,12 +129,12 @@ impl Grid {
         watch: &Watch,
     ) -> Result<Vec<bool>, Cancelled> {
         let prober = Prober { body, mesh: subject.mesh, bvh: subject.bvh };
-        let (below, nearest) = (below(subject), |at, below| nearest(&prober, layer, below, at));
+        let (below, nearest) = (below(subject), |at, below| nearest(&prober, layer.lowered(), below, at));
         let mut free = vec![false; self.columns * self.rows];
         let bands = free.par_chunks_mut(BLOCK * self.columns).enumerate();
         bands.try_for_each(|(band, free)| {
-            watch.advance(0)?;
             for column in (0..self.columns).step_by(BLOCK) {
+                watch.advance(0)?;
                 let block = Block { column, row: band * BLOCK, size: BLOCK };
                 self.mark_free(block, free, band * BLOCK, below, &nearest);
             }
@@ -143,7 +143,7 @@ impl Grid {
         Ok(free)
     }
 
-    /// Marks the free positions of a block, in those of all columns from a row on. A tool that is moved comes nearer to the part, or out
+    /// Marks the free positions of a block; `free` holds whole rows, the first of which is `first_row`. A tool that is moved comes nearer to the part, or out
     /// of it, by no more than it is moved: so one answer is often that of the whole block.
     fn mark_free(
         &self,
@@ -295,14 +295,17 @@ pub(super) fn below(subject: &Subject) -> f64 {
 
 /// Whether the tool is free of the part at a position of the layer, lowered by what is to stay under it.
 pub(super) fn is_free(prober: &Prober<'_>, layer: &Layer<'_>, below: f64, at: [f64; 2]) -> bool {
-    nearest(prober, layer, below, at).is_none()
+    nearest(prober, layer.lowered(), below, at).is_none()
 }
 
-/// Distance from the tool, lowered so, to the part, if that is less than `below`; negative in it, mm.
-fn nearest(prober: &Prober<'_>, layer: &Layer<'_>, below: f64, [x, y]: [f64; 2]) -> Option<f64> {
-    let stroke = Stroke::still(prober.body.position([x, y, layer.floor - layer.clearing.left[1]]));
-    let seen = prober.survey(Question { stroke, positions: [None; 2], below }, None);
-    seen.deepest.map(|passed| passed.touch.value)
+/// Distance from the tool with its tip at a height to the part, if that is less than `below`, mm. Negative is how deep a point of the part
+/// lies in the tool: moved by less, the tool still holds it.
+fn nearest(prober: &Prober<'_>, height: f64, below: f64, [x, y]: [f64; 2]) -> Option<f64> {
+    let position = prober.body.position([x, y, height]);
+    let question = Question { stroke: Stroke::still(position), positions: [None; 2], below };
+    let touch = prober.survey(question, None).deepest?.touch;
+    // a touch's depth is that of a plane, and more than that of any point where the plane's foot is not in the triangle
+    Some(if touch.value < 0.0 { prober.body.distance(touch.point - position).value } else { touch.value })
 }
 
 /// Whether a point lies in a triangle in plan.
@@ -315,22 +318,41 @@ fn is_within([x, y]: [f64; 2], [a, b, c]: [[f64; 2]; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
+    use styluscam_geometry::{Bvh, Mesh, Vector};
 
     use super::*;
+    use crate::body::tests::any_body;
+
+    /// Upright walls with level tops, and a slope.
+    fn terraces() -> impl Strategy<Value = Mesh> {
+        let block = (-20.0..20.0, -20.0..20.0, 1.0..15.0, 1.0..15.0, 0.5..25.0);
+        proptest::collection::vec(block, 1..5).prop_map(|blocks| {
+            let (mut points, mut triangles) = (Vec::new(), Vec::new());
+            for (x, y, width, depth, height) in blocks {
+                let first = points.len() as i64;
+                for corner in 0..8 {
+                    let far = [corner & 1, corner >> 1 & 1, corner >> 2].map(f64::from);
+                    points.push(Vector::new(x + far[0] * width, y + far[1] * depth, far[2] * height - 2.0));
+                }
+                let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]];
+                let halves = sides.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+                triangles.extend(halves.map(|corners| corners.map(|corner| first + corner)));
+            }
+            Mesh::new(points, &triangles, &[]).unwrap()
+        })
+    }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
         #[test]
         fn squares_are_free_where_all_their_positions_are(
-            discs in proptest::collection::vec((0.0..10.0, 0.0..10.0, 0.1..3.0), 0..12),
-            [columns, rows] in [1usize..60, 1usize..60],
-            below in -0.5..0.5,
+            body in any_body(), mesh in terraces(), spacing in 0.1..1.5, columns in 1usize..60, rows in 1usize..60, below in -0.01..0.01,
         ) {
-            let grid = Grid { low: [0.0; 2], spacing: 0.2, columns, rows, in_stock: Vec::new() };
-            let distance = |[x, y]: [f64; 2]| {
-                let to = |(u, v, radius): &(f64, f64, f64)| libm::hypot(x - u, y - v) - radius;
-                discs.iter().map(to).fold(f64::INFINITY, f64::min)
-            };
-            let nearest = |at, below| Some(distance(at)).filter(|distance| *distance < below);
+            let bvh = Bvh::new(&mesh);
+            let prober = Prober { body: &body, mesh: &mesh, bvh: &bvh };
+            let grid = Grid { low: [-20.0; 2], spacing, columns, rows, in_stock: Vec::new() };
+            let nearest = |at, below| nearest(&prober, 0.0, below, at);
             let mut free = vec![false; columns * rows];
             for (band, free) in free.chunks_mut(BLOCK * columns).enumerate() {
                 for column in (0..columns).step_by(BLOCK) {

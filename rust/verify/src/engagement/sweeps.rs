@@ -1,5 +1,5 @@
-//! What discs have swept, by the square cells of the plane: cells that a disc has covered whole, and the sweeps that end in
-//! others. Along the rim only what ends where it passes is looked at, exactly.
+//! What discs have swept, by the square cells of the plane: of each it is known whether one sweep covers it whole, or else which sweeps
+//! have their edge in it. Along the rim only the edges in the cells that it passes are looked at, exactly.
 
 use std::collections::HashMap;
 use std::f64::consts::SQRT_2;
@@ -10,11 +10,11 @@ use super::rim::Rim;
 
 /// Cells along the side of a tile.
 const TILE: i64 = 32;
-/// Nothing has come near a cell, and one sweep has covered it: else it has a number in the lists, and 2 more.
+/// States of a cell: no sweep is near it; one covers it whole; from [`LISTS`] on, the number of its list.
 const NONE: u32 = 0;
 const WHOLE: u32 = 1;
 const LISTS: u32 = 2;
-/// So many sweeps are looked at first, from the one on that was needed last: a tool that goes along above its own path is covered
+/// So many sweeps are looked at first, from the one on that left nothing last: a tool that goes along above its own path is covered
 /// by one of them alone.
 const FOLLOWING: u32 = 3;
 
@@ -26,17 +26,18 @@ pub struct Sweeps {
     /// Pieces, with the radius of the disc that is swept along each, mm.
     sweeps: Vec<(PlanePiece, f64)>,
     tiles: HashMap<[i64; 2], Box<[u32]>>,
-    /// Numbers of the sweeps that end in a cell.
+    /// Numbers of the sweeps that have their edge in a cell.
     lists: Vec<Vec<u32>>,
 }
 
 /// What one search leaves for the next.
 #[derive(Debug, Default)]
 pub struct Search {
-    /// Number of the sweep that was needed last.
+    /// Number of the sweep that left nothing last.
     covering: u32,
     crossings: Vec<f64>,
     cuts: Vec<f64>,
+    uncovered: Vec<[f64; 2]>,
     open: Vec<[f64; 2]>,
     spare: Vec<[f64; 2]>,
 }
@@ -52,7 +53,7 @@ impl Sweeps {
         let number = self.sweeps.len() as u32;
         self.sweeps.push((*piece, radius));
         // long pieces in parts, for their boxes would hold much that is far from them
-        let parts = libm::ceil(piece.length() / (2.0 * radius)).max(1.0);
+        let parts = libm::ceil(piece.length() / (2.0 * radius).max(self.size)).max(1.0);
         for part in 0..parts as usize {
             let ends = [part, part + 1].map(|i| piece.at(i as f64 / parts));
             let sag = if piece.circle.is_some() { 0.5 * piece.length() / parts } else { 0.0 };
@@ -69,7 +70,7 @@ impl Sweeps {
 
     /// Notes what a sweep does to a cell.
     fn reach(&mut self, cell: [i64; 2], number: u32) {
-        let (tile, at) = place(cell);
+        let (tile, at) = in_tile(cell);
         let known = self.tiles.get(&tile).map_or(NONE, |tile| tile[at]);
         if known == WHOLE {
             return;
@@ -112,11 +113,12 @@ impl Sweeps {
                 return;
             }
         }
-        let open = std::mem::take(&mut search.open);
-        for part in &open {
-            self.outside_in_cells(rim, *part, search, left);
+        let mut uncovered = std::mem::take(&mut search.uncovered);
+        std::mem::swap(&mut uncovered, &mut search.open);
+        for part in uncovered.drain(..) {
+            self.outside_in_cells(rim, part, search, left);
         }
-        search.open = open;
+        search.uncovered = uncovered;
     }
 
     /// The same, cell by cell.
@@ -125,10 +127,10 @@ impl Sweeps {
         rim.crossings_with_grid(interval, self.size, &mut cuts);
         let mut from = interval[0];
         for to in cuts.drain(..) {
-            if let Some(ending) = self.ending_at(rim.at(0.5 * (from + to))) {
+            if let Some(edges) = self.edges_at(rim.at(0.5 * (from + to))) {
                 search.open.clear();
                 search.open.push([from, to]);
-                for number in ending {
+                for number in edges {
                     self.take(rim, *number, search);
                     if search.open.is_empty() {
                         break;
@@ -153,9 +155,9 @@ impl Sweeps {
         }
     }
 
-    /// The sweeps that end in the cell of a point; none where one covers it.
-    fn ending_at(&self, point: PlanePoint) -> Option<&[u32]> {
-        let (tile, at) = place(self.cell(point));
+    /// The sweeps that have their edge in the cell of a point; none where one covers it.
+    fn edges_at(&self, point: PlanePoint) -> Option<&[u32]> {
+        let (tile, at) = in_tile(self.cell(point));
         match self.tiles.get(&tile).map_or(NONE, |tile| tile[at]) {
             NONE => Some(&[]),
             WHOLE => None,
@@ -173,7 +175,7 @@ fn join(left: &mut Vec<[f64; 2]>, part: [f64; 2]) {
 }
 
 /// The tile of a cell, and its number in it.
-fn place(cell: [i64; 2]) -> ([i64; 2], usize) {
+fn in_tile(cell: [i64; 2]) -> ([i64; 2], usize) {
     let [x, y] = cell.map(|i| i.rem_euclid(TILE));
     (cell.map(|i| i.div_euclid(TILE)), (x * TILE + y) as usize)
 }

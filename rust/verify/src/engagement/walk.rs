@@ -17,7 +17,7 @@ use super::sweeps::{Search, Sweeps};
 const SAME: f64 = 1e-6;
 /// Turns above this are corners of the path, rad.
 const CORNER: f64 = 0.01;
-/// Side of the cells by which it is known what is swept, in radii of the tool. 1/2 to 1/8 were measured (docs/performance.md).
+/// Side of the cells by which it is known what is swept, in radii of the widest. 1/2 to 1/8 were measured (docs/performance.md).
 const CELL: f64 = 0.25;
 /// Circles on which it is looked for what stands under a tool that goes straight down.
 const RINGS: u32 = 8;
@@ -31,6 +31,8 @@ pub struct Walk {
     stock: Area,
     pocket: Area,
     swept: Sweeps,
+    /// What was swept before the path.
+    cleared: Sweeps,
     /// Pieces that are recent still, with the length of the path up to their end.
     pending: VecDeque<(PlanePiece, f64)>,
     /// Length of the path so far, mm.
@@ -39,28 +41,31 @@ pub struct Walk {
     behind: f64,
     open: Open,
     scratch: Vec<f64>,
-    search: Search,
+    /// In the one and in the other.
+    searches: [Search; 2],
 }
 
 impl Walk {
     pub fn new(ground: &Ground<'_>) -> Self {
         let radius = ground.radius;
-        let mut swept = Sweeps::new(CELL * radius);
+        let widest = ground.cleared.iter().fold(radius, |widest, path| widest.max(path.radius));
+        let mut cleared = Sweeps::new(CELL * widest);
         for path in ground.cleared {
-            path.pieces().iter().for_each(|piece| swept.insert(piece, path.radius + ground.chip));
+            path.pieces().iter().for_each(|piece| cleared.insert(piece, path.radius + ground.chip));
         }
         Self {
             radius,
             chip: ground.chip,
             stock: Area::new(ground.stock, 2.0 * radius),
             pocket: Area::new(ground.pocket, 2.0 * radius),
-            swept,
+            swept: Sweeps::new(CELL * radius),
+            cleared,
             pending: VecDeque::new(),
             travelled: 0.0,
             behind: 0.0,
             open: Open::default(),
             scratch: Vec::new(),
-            search: Search::default(),
+            searches: Default::default(),
         }
     }
 
@@ -229,8 +234,9 @@ impl Walk {
             let swept = if *end > self.behind { piece.up_to(1.0 - (end - self.behind) / length) } else { *piece };
             self.open.keep(|interval, left| rim.outside_sweep(interval, &swept, exact, scratch, left));
         }
-        let (swept, search) = (&self.swept, &mut self.search);
-        self.open.keep(|interval, left| swept.outside(rim, interval, search, left));
+        for (swept, search) in [&self.swept, &self.cleared].into_iter().zip(&mut self.searches) {
+            self.open.keep(|interval, left| swept.outside(rim, interval, search, left));
+        }
     }
 
     /// What stands in the open directions.

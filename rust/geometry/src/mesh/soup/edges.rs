@@ -57,8 +57,13 @@ pub fn is_closed(triangles: &[[u32; 3]], edges: &Edges) -> bool {
 pub fn gap(triangles: &[[u32; 3]], edges: &Edges) -> Option<u32> {
     let agrees = |half: u32, twin: u32| twin == NONE || ends(triangles, half).0 == ends(triangles, twin).1;
     let apart = (0..).zip(&edges.twins).find(|(half, twin)| !agrees(*half, **twin)).map(|(half, _)| half);
-    let is_even = |edge: &&Vec<u32>| 2 * edge.iter().filter(|half| is_forward(triangles, **half)).count() == edge.len();
-    apart.or_else(|| edges.odd.iter().find(|edge| !is_even(edge)).and_then(|edge| edge.first().copied()))
+    let uneven = || edges.odd.iter().find(|edge| !is_balanced(triangles, edge));
+    apart.or_else(|| uneven().and_then(|edge| edge.first().copied()))
+}
+
+/// Whether an edge is run as often in one direction as in the other.
+pub fn is_balanced(triangles: &[[u32; 3]], edge: &[u32]) -> bool {
+    2 * edge.iter().filter(|half| is_forward(triangles, **half)).count() == edge.len()
 }
 
 fn is_forward(triangles: &[[u32; 3]], half: u32) -> bool {

@@ -8,6 +8,7 @@ mod edges;
 mod faces;
 mod holes;
 mod mending;
+mod rings;
 mod seams;
 mod shapes;
 mod triangles;

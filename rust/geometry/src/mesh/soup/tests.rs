@@ -515,6 +515,50 @@ fn slits_are_closed() {
 }
 
 #[test]
+fn slits_round_a_face_are_closed_and_nothing_is_turned() {
+    // the middles of the walls' upper edges are 1 um higher than the top
+    let at = |x: f64, y: f64, z: f64| Vector::new(x, y, z);
+    let foot = [at(0.0, 0.0, 0.0), at(10.0, 0.0, 0.0), at(10.0, 10.0, 0.0), at(0.0, 10.0, 0.0)];
+    for turn in 0..4 {
+        let mut made = Triangles::default();
+        made.quad([0, 3, 2, 1].map(|i| foot[i]));
+        made.quad([0, 1, 2, 3].map(|i: usize| foot[(i + turn) % 4] + at(0.0, 0.0, 10.0)));
+        for i in 0..4 {
+            let (p, q) = (foot[i], foot[(i + 1) % 4]);
+            let (r, s) = (q + at(0.0, 0.0, 10.0), p + at(0.0, 0.0, 10.0));
+            let middle = 0.5 * (r + s) + at(0.0, 0.0, 0.001);
+            made.0.extend([[p, q, r], [p, r, middle], [p, middle, s]]);
+        }
+        let soup = made.mended();
+        let mending = &soup.mending;
+        assert_eq!((mending.inside_out, mending.turned, mending.closed), (0, 0, true), "{mending:?}");
+        assert_eq!(mending.filled.as_ref().map(|filled| filled.holes), Some(4));
+        assert!((volume(&soup) - 1000.0).abs() < 0.1);
+    }
+}
+
+#[test]
+fn holes_that_meet_at_a_corner_are_closed_each_by_itself() {
+    // a triangle of which all neighbours are missing: its corners have two ways on
+    let mut made = field(10, |_, _| 0.0);
+    let whole = made.mended();
+    let is = |t: &[Vector; 3], corners: [[f64; 2]; 3]| {
+        corners.iter().all(|[x, y]| t.iter().any(|p| (p.x - x).abs() + (p.y - y).abs() < 1e-9)) && t[0].z > -1.0
+    };
+    let island = [[20.0, 20.0], [30.0, 20.0], [30.0, 30.0]];
+    let around =
+        |t: &[Vector; 3]| t.iter().all(|p| (10.0..=40.0).contains(&p.x) && (10.0..=40.0).contains(&p.y) && p.z > -1.0);
+    let beside = |t: &[Vector; 3]| {
+        let shared = t.iter().filter(|p| island.iter().any(|[x, y]| (p.x - x).abs() + (p.y - y).abs() < 1e-9)).count();
+        around(t) && shared == 2
+    };
+    made.0.retain(|t| is(t, island) || !beside(t));
+    let soup = made.mended();
+    assert_eq!((soup.triangles.len(), soup.mending.closed), (whole.triangles.len(), true), "{:?}", soup.mending);
+    assert_eq!(corners(&soup), corners(&whole));
+}
+
+#[test]
 fn openings_that_are_meant_stay() {
     let is_kept = |made: Triangles| {
         let soup = made.mended();
@@ -529,6 +573,12 @@ fn openings_that_are_meant_stay() {
     plate.0.retain(|t| t.iter().all(|p| p.z > -1.0));
     plate.0.remove(60);
     is_kept(plate);
+    // skins of a square and of a round tube
+    for sides in [4, 8] {
+        let mut tube = turned(sides, &[(5.0, 0.0), (5.0, 60.0)]);
+        tube.0.retain(|t| t.iter().any(|p| (p.z - t[0].z).abs() > 1.0));
+        is_kept(tube);
+    }
     let mut one = Triangles::default();
     one.0.push([Vector::zeros(), Vector::x(), Vector::y()]);
     is_kept(one);

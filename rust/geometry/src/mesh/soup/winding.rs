@@ -20,7 +20,6 @@ pub fn turn_outward(
     patches: &[u32],
     mending: &mut Mending,
 ) {
-    mending.closed = is_closed(triangles, edges);
     let bodies = Bodies::of(vertices, triangles, edges, patches);
     let turned_over = bodies.inside_out(vertices, triangles);
     for (corners, body) in triangles.iter_mut().zip(&bodies.of_triangle) {
@@ -29,6 +28,8 @@ pub fn turn_outward(
             mending.inside_out += 1;
         }
     }
+    let edges = if mending.inside_out > 0 { &Edges::of(triangles) } else { edges };
+    mending.closed = is_closed(triangles, edges);
 }
 
 /// Turns triangles so that neighbours agree, the fewer of each connected patch; returns the patch of each triangle, and the
