@@ -8,7 +8,7 @@ use styluscam_motion::{Cancelled, Watch};
 use super::before::Took;
 use super::own::Own;
 use crate::engagement::{
-    engagement, Area, Cleared, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept,
+    engagement, Area, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Sweeps, Swept,
 };
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::faults::{self, Fault};
@@ -49,7 +49,7 @@ pub(super) struct Layer<'a> {
     pub area: &'a Area,
     /// What was swept in it before.
     pub cleared: &'a [Swept],
-    pub gone: &'a Cleared,
+    pub gone: &'a Sweeps,
     /// What took of the stock before its operation.
     pub before: &'a Took<'a>,
     pub clearing: &'a Clearing,

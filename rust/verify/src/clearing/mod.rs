@@ -41,13 +41,13 @@ pub(crate) struct Judged {
     pub engagement: Vec<OperationEngagement>,
 }
 
+/// Steps of a layer that are counted as done.
+const STEPS: usize = 4;
+
 /// Faults of the moves that clear stock, findings of what they leave, and what they engage.
 ///
 /// # Errors
 /// `Cancelled`.
-/// Steps of a layer that are counted as done.
-const STEPS: usize = 4;
-
 pub(crate) fn judged(
     program: &Program,
     segments: &[Segment],
@@ -63,21 +63,21 @@ pub(crate) fn judged(
         let mut along = Along::new(&work);
         watch.begin("measuring the engagement", STEPS * work.heights.len());
         let layers = work.by_layer(limits, |number, layer| {
-            let (beside, mut faults) = (watch.beside(), Vec::new());
-            let inside = layer.measured(&work.own, &beside)?;
+            let (inner, mut faults) = (watch.beside(), Vec::new());
+            let inside = layer.measured(&work.own, &inner)?;
             watch.advance(1)?;
             let engaged = along.of_layer(number, layer, &inside, &work);
-            let swept = layer.judged(&inside, &beside, &mut faults)?;
+            let swept = layer.judged(&inside, &inner, &mut faults)?;
             watch.advance(1)?;
             let grid = rest::Grid::new(layer);
-            let free = grid.free(layer, &body, subject, &beside)?;
+            let free = grid.free(layer, &body, subject, &inner)?;
             watch.advance(1)?;
             let reached = grid.reached(layer, &free, &swept, subject);
             let mut findings: Vec<Finding> = rest::left(layer, &swept, (&grid, &reached)).into_iter().collect();
             findings.extend(beside::left(layer, &swept, (&grid, &free, &reached), &body, subject));
             if layer.clearing.left.iter().any(|left| *left > 0.0) {
                 let solids = Solids { body: &body, subject, limits };
-                faults.extend(to_leave::faults(layer, &work.own, (&grid, &free), &solids, &beside)?);
+                faults.extend(to_leave::faults(layer, &work.own, (&grid, &free), &solids, &inner)?);
             }
             watch.advance(1)?;
             Ok((engaged, faults, findings))

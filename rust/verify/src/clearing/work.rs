@@ -8,13 +8,13 @@ use super::before::Took;
 use super::layer::Layer;
 use super::own::{moves_of, Own};
 use crate::assignment::Assignment;
-use crate::engagement::{Area, Cleared, CHIP};
+use crate::engagement::{Area, Sweeps, CHIP};
 use crate::expectation::{Clearing, ExpectedOperation};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::{SAME_LEVEL, SLACK};
 
-/// Cells in which the outlines of the stock are listed are as large as this at least, mm.
+/// Cells in which the outlines of the stock are listed, and radii by which what is swept is, are as large as this at least, mm.
 const LEAST_CELL: f64 = 1.0;
 
 /// An operation that clears stock, with the moves that do it.
@@ -82,7 +82,7 @@ impl<'a> Work<'a> {
             bounds: self.stock.bounds(),
             area: &Area::new(&outlines, radius.max(LEAST_CELL)),
             cleared: &cleared,
-            gone: &Cleared::new(&cleared, 0.0),
+            gone: &Sweeps::along(&cleared, 0.0, radius.max(LEAST_CELL)),
             before: &self.before,
             top,
             floor,

@@ -16,7 +16,6 @@
 
 mod area;
 mod cells;
-mod cleared;
 mod error;
 mod open;
 mod rim;
@@ -34,7 +33,7 @@ pub use runs::{Engaged, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CH
 
 pub(crate) use area::Area;
 pub(crate) use cells::Cells;
-pub(crate) use cleared::Cleared;
+pub(crate) use sweeps::Sweeps;
 
 /// The engagement along every run of a path, in the order in which they are cut.
 ///

@@ -7,6 +7,10 @@ use std::f64::consts::SQRT_2;
 use styluscam_geometry::{PlanePiece, PlanePoint};
 
 use super::rim::Rim;
+use super::runs::Swept;
+
+/// Side of a cell, in radii of the widest disc. 1/2 to 1/8 were measured (docs/performance.md).
+const CELL: f64 = 0.25;
 
 /// Cells along the side of a tile.
 const TILE: i64 = 32;
@@ -43,9 +47,18 @@ pub struct Search {
 }
 
 impl Sweeps {
-    /// None yet, in cells of a size, mm.
-    pub fn new(size: f64) -> Self {
-        Self { size, sweeps: Vec::new(), tiles: HashMap::new(), lists: Vec::new() }
+    /// None yet; discs are to have a radius, mm, or about that.
+    pub fn new(radius: f64) -> Self {
+        Self { size: CELL * radius, sweeps: Vec::new(), tiles: HashMap::new(), lists: Vec::new() }
+    }
+
+    /// Those of paths, each disc `more` mm larger than its tool; `least` is a radius for the cells where no tool is wider, mm.
+    pub fn along(paths: &[Swept], more: f64, least: f64) -> Self {
+        let mut sweeps = Self::new(paths.iter().fold(least, |widest, path| widest.max(path.radius)));
+        for path in paths {
+            path.pieces().iter().for_each(|piece| sweeps.insert(piece, path.radius + more));
+        }
+        sweeps
     }
 
     /// Sweeps a disc along a piece.
@@ -101,6 +114,13 @@ impl Sweeps {
 
     fn cell(&self, point: PlanePoint) -> [i64; 2] {
         point.map(|x| libm::floor(x / self.size) as i64)
+    }
+
+    /// Whether a point has been swept.
+    pub fn holds(&self, point: PlanePoint) -> bool {
+        let sweeps = |number: &u32| self.sweeps.get(*number as usize);
+        let holds = |(piece, radius): &(PlanePiece, f64)| piece.distance(point) < *radius;
+        self.edges_at(point).is_none_or(|edges| edges.iter().filter_map(sweeps).any(holds))
     }
 
     /// Leaves of an interval of a rim what lies outside of all sweeps.
@@ -215,7 +235,7 @@ mod tests {
             rims in proptest::collection::vec((coordinate(), coordinate(), 0.2..3.0, interval()), 1..8),
             size in 0.1..1.5,
         ) {
-            let mut found = Sweeps::new(size);
+            let mut found = Sweeps::new(size / CELL);
             sweeps.iter().for_each(|(piece, radius)| found.insert(piece, *radius));
             let (mut search, mut left, mut crossings) = (Search::default(), Vec::new(), Vec::new());
             for (x, y, radius, interval) in rims {
@@ -231,6 +251,8 @@ mod tests {
                 let total = |parts: &[[f64; 2]]| parts.iter().map(|[from, to]| to - from).sum::<f64>();
                 prop_assert!((total(&left) - total(&expected)).abs() < 1e-6, "{left:?} {expected:?}");
                 prop_assert!(left.windows(2).all(|pair| pair[0][1] < pair[1][0]), "{left:?}");
+                let is_swept = sweeps.iter().any(|(piece, radius)| piece.distance([x, y]) < *radius);
+                prop_assert_eq!(found.holds([x, y]), is_swept);
                 for [from, to] in left.iter().filter(|[from, to]| to - from > 1e-6) {
                     let middle = rim.at(0.5 * (from + to));
                     prop_assert!(sweeps.iter().all(|(piece, radius)| piece.distance(middle) > radius - 1e-9));
@@ -242,9 +264,9 @@ mod tests {
         fn a_grid_cuts_a_rim_into_pieces_that_lie_in_one_cell_each(
             [x, y] in [coordinate(), coordinate()], radius in 0.2..3.0, interval in interval(), size in 0.1..1.5,
         ) {
-            let (rim, sweeps) = (Rim { centre: [x, y], radius }, Sweeps::new(size));
+            let (rim, sweeps) = (Rim { centre: [x, y], radius }, Sweeps::new(size / CELL));
             let mut cuts = Vec::new();
-            rim.crossings_with_grid(interval, size, &mut cuts);
+            rim.crossings_with_grid(interval, sweeps.size, &mut cuts);
             prop_assert_eq!(cuts.last(), Some(&interval[1]));
             let starts = std::iter::once(interval[0]).chain(cuts.iter().copied());
             for (from, to) in starts.zip(&cuts).filter(|(from, to)| *to - from > 1e-6) {

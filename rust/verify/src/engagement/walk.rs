@@ -17,8 +17,6 @@ use super::sweeps::{Search, Sweeps};
 const SAME: f64 = 1e-6;
 /// Turns above this are corners of the path, rad.
 const CORNER: f64 = 0.01;
-/// Side of the cells by which it is known what is swept, in radii of the widest. 1/2 to 1/8 were measured (docs/performance.md).
-const CELL: f64 = 0.25;
 /// Circles on which it is looked for what stands under a tool that goes straight down.
 const RINGS: u32 = 8;
 /// The watch is asked after so many positions.
@@ -48,18 +46,13 @@ pub struct Walk {
 impl Walk {
     pub fn new(ground: &Ground<'_>) -> Self {
         let radius = ground.radius;
-        let widest = ground.cleared.iter().fold(radius, |widest, path| widest.max(path.radius));
-        let mut cleared = Sweeps::new(CELL * widest);
-        for path in ground.cleared {
-            path.pieces().iter().for_each(|piece| cleared.insert(piece, path.radius + ground.chip));
-        }
         Self {
             radius,
             chip: ground.chip,
             stock: Area::new(ground.stock, 2.0 * radius),
             pocket: Area::new(ground.pocket, 2.0 * radius),
-            swept: Sweeps::new(CELL * radius),
-            cleared,
+            swept: Sweeps::new(radius),
+            cleared: Sweeps::along(ground.cleared, ground.chip, radius),
             pending: VecDeque::new(),
             travelled: 0.0,
             behind: 0.0,

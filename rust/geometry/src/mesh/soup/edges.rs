@@ -16,11 +16,8 @@ pub struct Edges {
 impl Edges {
     pub fn of(triangles: &[[u32; 3]]) -> Self {
         let sides = |(t, corners): (usize, &[u32; 3])| {
-            let corners = *corners;
-            (0..3).map(move |k| {
-                let (a, b) = (corners[k], corners[(k + 1) % 3]);
-                ((u64::from(a.min(b)) << 32) | u64::from(a.max(b)), (3 * t + k) as u32)
-            })
+            let sides = (3 * t as u32..).zip(sides_of(*corners));
+            sides.map(|(half, (low, high))| ((u64::from(low) << 32) | u64::from(high), half))
         };
         let mut half: Vec<(u64, u32)> = triangles.par_iter().enumerate().flat_map_iter(sides).collect();
         half.par_sort_unstable();
@@ -36,10 +33,20 @@ impl Edges {
         edges
     }
 
+    /// The half-edges at which there is no other triangle.
+    pub fn open(&self) -> impl Iterator<Item = u32> + '_ {
+        self.odd.iter().filter(|edge| edge.len() == 1).flatten().copied()
+    }
+
     /// The triangle beyond a side, where exactly one other is there.
     pub fn beyond(&self, half: u32) -> Option<u32> {
         Some(self.twins[half as usize]).filter(|twin| *twin != NONE).map(|twin| twin / 3)
     }
+}
+
+/// The sides of a triangle in the order of its half-edges, each with its lower vertex first.
+pub fn sides_of([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
+    [(a, b), (b, c), (c, a)].map(|(from, to)| (from.min(to), from.max(to)))
 }
 
 /// First and last vertex of a half-edge.

@@ -6,7 +6,7 @@
 
 use std::collections::HashSet;
 
-use super::edges::{is_balanced, Edges};
+use super::edges::{ends, is_balanced, sides_of, Edges};
 use super::mending::{Filled, Mending};
 use super::rings::Open;
 use super::triangles::{area_vector, bounds};
@@ -14,7 +14,7 @@ use super::union_find::Union;
 use crate::Vector;
 
 /// A hole of more sides stays open: an opening that is meant, perhaps.
-pub(super) const MOST_SIDES: usize = 12;
+const MOST_SIDES: usize = 12;
 /// A surface of which the triangles in its holes would be more than this share is open, and no body with holes.
 const SMALL: f64 = 0.1;
 /// Triangles that lean by more from a neighbour fold back on it, rad: 150 degrees.
@@ -95,11 +95,9 @@ fn closed(vertices: &[Vector], triangles: &[[u32; 3]], edges: &Edges) -> (Vec<Ho
     for count in 3..=MOST_SIDES {
         for half in open.sides() {
             let Some(ring) = open.ring(half, count) else { continue };
-            let Some(made) = rims.filled(&ring, |half| open.ends(half).1) else { continue };
+            let Some(made) = rims.filled(&ring) else { continue };
             open.remove(&ring);
-            rims.sides.extend(
-                made.iter().flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]).map(|(a, b)| (*a.min(b), *a.max(b))),
-            );
+            rims.sides.extend(made.iter().flat_map(|corners| sides_of(*corners)));
             found.push(Hole { ring, made });
         }
     }
@@ -134,9 +132,9 @@ struct Best {
 impl Rims<'_> {
     /// Triangles that close a ring; none where they would fold back, or lean from all neighbours. The ring's corners are where its sides begin
     /// on the hole's side: there each runs against its triangle.
-    fn filled(&self, ring: &[u32], begin: impl Fn(u32) -> u32) -> Option<Vec<[u32; 3]>> {
+    fn filled(&self, ring: &[u32]) -> Option<Vec<[u32; 3]>> {
         let count = ring.len();
-        let corners: Vec<u32> = ring.iter().map(|half| begin(*half)).collect();
+        let corners: Vec<u32> = ring.iter().map(|half| ends(self.triangles, *half).1).collect();
         let beyond: Vec<Option<Vector>> =
             ring.iter().map(|half| self.normal_of(self.triangles[*half as usize / 3]).flatten()).collect();
         // by first and last corner of a stretch
@@ -153,13 +151,12 @@ impl Rims<'_> {
         let mut made = Vec::new();
         let (mut goes_on, mut stretches) = (false, vec![[0, count - 1]]);
         while let Some([first, end]) = stretches.pop() {
-            let Some(corner) = best[first][end]?.corner else { continue };
-            let triangle = [first, corner, end].map(|i| corners[i]);
-            let normal = self.normal_of(triangle).flatten();
+            let Best { corner, normal, .. } = best[first][end]?;
+            let Some(corner) = corner else { continue };
             let sides = [(first, corner), (corner, end), (end, first)];
             let outer = sides.into_iter().filter(|(from, to)| (from + 1) % count == *to);
             goes_on |= outer.map(|(from, _)| angle(normal, beyond[from])).any(|angle| angle < CREASE);
-            made.push(triangle);
+            made.push([first, corner, end].map(|i| corners[i]));
             stretches.extend([[first, corner], [corner, end]]);
         }
         goes_on.then_some(made)

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::edges::{ends, Edges};
+use super::edges::{ends, sides_of, Edges};
 
 /// Sides at which one triangle is. On the hole's side each runs against its triangle: from the half-edge's end to its beginning.
 pub struct Open<'a> {
@@ -14,14 +14,14 @@ pub struct Open<'a> {
 impl<'a> Open<'a> {
     pub fn of(triangles: &'a [[u32; 3]], edges: &Edges) -> Self {
         let mut from: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for half in edges.odd.iter().filter(|edge| edge.len() == 1).flatten() {
-            from.entry(ends(triangles, *half).1).or_default().push(*half);
+        for half in edges.open() {
+            from.entry(ends(triangles, half).1).or_default().push(half);
         }
         from.values_mut().for_each(|sides| sides.sort_by_key(|half| ends(triangles, *half).0));
         Self { triangles, from }
     }
 
-    pub fn ends(&self, half: u32) -> (u32, u32) {
+    fn ends(&self, half: u32) -> (u32, u32) {
         ends(self.triangles, half)
     }
 
@@ -79,8 +79,7 @@ impl<'a> Open<'a> {
             let (begin, end) = self.ends(*half);
             (is_corner[begin as usize], is_corner[end as usize]) = (true, true);
         }
-        let sides = self.triangles.iter().flat_map(|[a, b, c]| [(*a, *b), (*b, *c), (*c, *a)]);
-        let sides = sides.filter(|(a, b)| is_corner[*a as usize] && is_corner[*b as usize]);
-        sides.map(|(a, b)| (a.min(b), a.max(b))).collect()
+        let sides = self.triangles.iter().flat_map(|corners| sides_of(*corners));
+        sides.filter(|(a, b)| is_corner[*a as usize] && is_corner[*b as usize]).collect()
     }
 }

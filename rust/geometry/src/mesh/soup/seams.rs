@@ -21,7 +21,7 @@ pub fn cut(vertices: &[Vector], triangles: &mut Vec<[u32; 3]>, mending: &mut Men
     let distance = join_distance(vertices);
     for _ in 0..ROUNDS {
         let edges = Edges::of(triangles);
-        let open: Vec<u32> = edges.odd.iter().filter(|edge| edge.len() == 1).map(|edge| edge[0]).collect();
+        let open: Vec<u32> = edges.open().collect();
         if open.is_empty() || !distance.is_finite() {
             return;
         }

@@ -66,8 +66,7 @@ pub fn near(vertices: &[Vector], triangles: &mut [[u32; 3]], mending: &mut Mendi
 /// Vertices on edges that only one triangle has, ascending.
 fn open_corners(triangles: &[[u32; 3]]) -> Vec<u32> {
     let edges = Edges::of(triangles);
-    let alone = edges.odd.iter().filter(|edge| edge.len() == 1);
-    let mut corners: Vec<u32> = alone.flat_map(|e| <[u32; 2]>::from(ends(triangles, e[0]))).collect();
+    let mut corners: Vec<u32> = edges.open().flat_map(|half| <[u32; 2]>::from(ends(triangles, half))).collect();
     corners.sort_unstable();
     corners.dedup();
     corners
