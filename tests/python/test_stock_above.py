@@ -1,4 +1,4 @@
-"""Stock above the height at which an operation begins: found, unless what ran before has taken it."""
+"""Stock that stands where a tool comes: found, unless what ran before has taken it."""
 
 from __future__ import annotations
 
@@ -25,6 +25,12 @@ def job(*operations: dict[str, Any], stated: bool = True, stock: dict[str, Any] 
         "tools": {
             "mill": {"number": 1, "profile": {"kind": "flat", "diameter": 6.0}},
             "ball": {"number": 2, "profile": {"kind": "ball", "diameter": 6.0}},
+            "held": {
+                "number": 3,
+                "profile": {"kind": "flat", "diameter": 6.0},
+                "length": 12.0,
+                "holder": {"diameter": 30.0, "length": 40.0},
+            },
         },
         "machine": {"name": "linuxcnc"},
         "operations": [common | {"id": f"of{number}"} | operation for number, operation in enumerate(operations)],
@@ -95,3 +101,31 @@ def test_without_a_stated_stock_nothing_is_known_of_it() -> None:
 def test_a_skin_on_the_wall_above_is_no_stock(left: float, found: set[str]) -> None:
     down = pocket(radial_stock_to_leave=left)
     assert kinds(job(down, contour(z_top=BEGINS, step={"height": 20.0}))) == found
+
+
+ROWS = {"kind": "zig-zag", "faces": "all", "stepover": 2.0}
+
+
+@pytest.mark.parametrize(("over", "found"), [(5.9, set()), (6.1, {"stock-above"})])
+def test_rows_that_cut_deeper_than_the_tool_is_wide_are_warned_of(over: float, found: set[str]) -> None:
+    stock = {"kind": "box", "top": over, "sides": SIDES}
+    assert kinds(job(ROWS, stock=stock)) == found
+    assert kinds(job(pocket(), ROWS, stock=stock)) == set()
+    assert kinds(job(ROWS, stated=False)) == set()
+
+
+def test_a_wall_that_was_roughed_may_be_finished_at_its_full_height() -> None:
+    stock = {"kind": "box", "top": 0.0, "sides": 8.0}
+    levels = {"kind": "z-level", "faces": "all", "step": {"height": 10.0}}
+    left = pocket(radial_stock_to_leave=0.5)
+    assert kinds(job(left, levels, stock=stock)) == set()
+    assert "stock-above" in kinds(job(levels, stock=stock))
+
+
+def test_a_holder_in_stock_beside_the_part_is_found() -> None:
+    """The tool sticks out by 12 mm, and goes 14 mm under the stock's top."""
+    around = contour(tool="held")
+    assert "holder-collision" in kinds(job(around, stock={"kind": "box", "top": OVER, "sides": 20.0}))
+    # what a longer one has taken before, or an earlier pass of its own
+    assert "holder-collision" not in kinds(job(pocket(), around, stock={"kind": "box", "top": OVER, "sides": 20.0}))
+    assert "holder-collision" not in kinds(job(around, stock={"kind": "box", "top": 1.9, "sides": 20.0}))

@@ -1,6 +1,6 @@
 //! The solids of a tool: its profile, and the shank and the holder above it, each with the sheet.
 
-use crate::{kinds, Base, Profile, ProfileDocument, Sheet, Tool, ToolBody};
+use crate::{kinds, Base, Cutter, Profile, ProfileDocument, Sheet, Tool, ToolBody};
 
 /// Share of a tangent base's height at which the straight hull of its half cosine wave has the shank's radius: the line
 /// from its foot that touches the wave rises pi / 2.3311 (1 - cos 2.3311) / 2 times as fast as the wave does on average.
@@ -27,32 +27,46 @@ impl Tool {
     /// A tangent base is its straight hull; a wider shank without a base begins at the profile's rim.
     #[must_use]
     pub fn bodies_above(&self, sheet: Option<&Sheet>) -> Vec<(ToolPart, ToolBody)> {
+        self.above().map(|(part, profile, height)| (part, with_sheet(&profile, sheet, height))).collect()
+    }
+
+    /// The same without a sheet as cutters, and how high the lowest point of each is over the tip, mm.
+    #[must_use]
+    pub fn cutters_above(&self) -> Vec<(ToolPart, Cutter, f64)> {
+        self.above().map(|(part, profile, height)| (part, Cutter::new(&profile, 0.0), height)).collect()
+    }
+
+    /// Meridians of the solids above the profile, and how high each begins over the tip, mm.
+    fn above(&self) -> impl Iterator<Item = (ToolPart, Profile, f64)> + '_ {
+        let document = self.document();
+        let held = document.holder.as_ref().zip(document.length);
+        let holder = held.map(|(holder, length)| (ToolPart::Holder, cylinder(holder.diameter), length));
+        let solids = self.shank().into_iter().chain(holder);
+        // none where the numbers make none: a tool's own checks have passed them
+        solids.filter_map(|(part, profile, height)| Some((part, profile.build().ok()?.0, height)))
+    }
+
+    /// The shank where it is wider than the profile, and how high it begins over the tip, mm.
+    fn shank(&self) -> Option<(ToolPart, ProfileDocument, f64)> {
         let document = self.document();
         let (wide, rim) = self.profile().base();
         let radius = wide - self.left()[0];
-        let mut bodies = Vec::new();
-        if let Some(diameter) = document.shank_diameter.filter(|d| *d > 2.0 * radius) {
-            let (height, cone) = match document.base {
-                None => (rim, None),
-                Some(Base::Cylindrical { height }) => (rim + height, None),
-                Some(Base::Chamfer { height }) => (rim, Some(height)),
-                Some(Base::Tangent { height }) => (rim, Some(TANGENT_HULL * height)),
-            };
-            let profile = cone.map_or(cylinder(diameter), |rise| {
-                ProfileDocument::from(kinds::V {
-                    tip_diameter: 2.0 * radius,
-                    angle_deg: 2.0 * libm::atan((0.5 * diameter - radius) / rise).to_degrees(),
-                    diameter,
-                    tip_flat: 0.0,
-                })
-            });
-            bodies.extend(standing(&profile, sheet, height).map(|body| (ToolPart::Shank, body)));
-        }
-        if let (Some(holder), Some(length)) = (document.holder, document.length) {
-            let body = standing(&cylinder(holder.diameter), sheet, length);
-            bodies.extend(body.map(|body| (ToolPart::Holder, body)));
-        }
-        bodies
+        let diameter = document.shank_diameter.filter(|d| *d > 2.0 * radius)?;
+        let (height, cone) = match document.base {
+            None => (rim, None),
+            Some(Base::Cylindrical { height }) => (rim + height, None),
+            Some(Base::Chamfer { height }) => (rim, Some(height)),
+            Some(Base::Tangent { height }) => (rim, Some(TANGENT_HULL * height)),
+        };
+        let profile = cone.map_or(cylinder(diameter), |rise| {
+            ProfileDocument::from(kinds::V {
+                tip_diameter: 2.0 * radius,
+                angle_deg: 2.0 * libm::atan((0.5 * diameter - radius) / rise).to_degrees(),
+                diameter,
+                tip_flat: 0.0,
+            })
+        });
+        Some((ToolPart::Shank, profile, height))
     }
 }
 
@@ -60,12 +74,7 @@ fn cylinder(diameter: f64) -> ProfileDocument {
     ProfileDocument::from(kinds::Flat { diameter, tip_flat: 0.0 })
 }
 
-/// A solid that begins `height` mm above the tip. None where the numbers make none: a tool's own checks have passed them.
-fn standing(profile: &ProfileDocument, sheet: Option<&Sheet>, height: f64) -> Option<ToolBody> {
-    let (profile, _) = profile.build().ok()?;
-    Some(with_sheet(&profile, sheet, height))
-}
-
+/// A solid that begins `height` mm above the tip, with the sheet.
 fn with_sheet(profile: &Profile, sheet: Option<&Sheet>, height: f64) -> ToolBody {
     let ball = sheet.map_or(0.0, Sheet::along_normal);
     ToolBody::new(profile, ball).with_tip_above(sheet.map_or(0.0, Sheet::raise) - height)

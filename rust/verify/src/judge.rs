@@ -14,7 +14,7 @@ use crate::segments::{placed, Segment};
 use crate::subject::{Axes, Limits, Subject};
 use crate::tally::Tally;
 use crate::{
-    bored, chamfered, clearing, contoured, corner_angles, corners, covered, diagnosis, frame, holes, leaning,
+    bored, chamfered, clearing, contoured, corner_angles, corners, covered, diagnosis, frame, holes, in_stock, leaning,
     low_links, pair, passes, reach, sequence, settings, stock_above, tabs, travel, unreached, walls,
 };
 
@@ -117,6 +117,7 @@ fn of_passes(
     faults.extend(bored::faults(program, segments, subject, limits));
     faults.extend(covered::faults(segments, assignment, subject, limits, watch)?);
     faults.extend(stock_above::faults(segments, subject, watch)?);
+    faults.extend(in_stock::faults(segments, subject, watch)?);
     Ok(faults)
 }
 

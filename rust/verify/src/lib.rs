@@ -59,6 +59,7 @@ mod groups;
 mod holding;
 mod holes;
 mod in_layers;
+mod in_stock;
 mod judge;
 mod leaning;
 mod level_moves;

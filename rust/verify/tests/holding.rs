@@ -4,9 +4,9 @@
 mod common;
 
 use common::{limits, Part, Path, CLEARANCE};
-use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Tool, Vector};
+use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Stock, Tool, Vector};
 use styluscam_motion::{Arc, Plane, Program, Watch};
-use styluscam_verify::{judge, FindingKind, Report};
+use styluscam_verify::{cut_by, judge, Before, FindingKind, Report, Subject};
 
 /// A floor at Z -30 and a wall at X 0 that rises to Z 0, 100 mm wide.
 fn step() -> Part {
@@ -37,7 +37,7 @@ fn along(tool: &Tool, x: f64, up: f64) -> Program {
 
 fn judged(tool: &Tool, sheet: Option<Sheet>, program: &Program) -> Report {
     let (part, tools) = (step(), [tool.clone()]);
-    let subject = styluscam_verify::Subject { sheet, ..part.subject(&tools) };
+    let subject = Subject { sheet, ..part.subject(&tools) };
     judge(program, &subject, &limits(), &Watch::default()).unwrap()
 }
 
@@ -101,4 +101,81 @@ fn a_shank_on_an_arc() {
     assert!((depth(&report, FindingKind::ShankCollision).unwrap() - 0.4).abs() < 1e-6, "{:?}", report.findings);
     program.moves[2].arc = None;
     assert!(judged(&tool, None, &program).ok);
+}
+
+/// The floor in a box of stock, what was cut of that before, and how far the holder and the shank are in it, mm.
+fn in_stock(tool: &Tool, stock: &Stock, before: Option<&Before>, program: &Program) -> [Option<f64>; 2] {
+    let (part, tools) = (step(), [tool.clone()]);
+    let subject = Subject { stock: Some(stock), stock_is_stated: true, before, ..part.subject(&tools) };
+    let report = judge(program, &subject, &limits(), &Watch::default()).unwrap();
+    [FindingKind::HolderCollision, FindingKind::ShankCollision].map(|kind| depth(&report, kind))
+}
+
+fn boxed(low: [f64; 3], high: [f64; 3]) -> Stock {
+    Stock::of_box(Vector::from(low), Vector::from(high))
+}
+
+const WIDE: [[f64; 3]; 2] = [[-50.0, -50.0, -30.0], [50.0, 50.0, 0.0]];
+const HELD: &str = r#", "length": 24.0, "holder": {"diameter": 40.0, "length": 50.0}"#;
+
+#[test]
+fn a_holder_in_stock_that_stands_beside_the_slot() {
+    let held = tool(HELD);
+    let path = along(&held, 25.0, 0.0);
+    let found = in_stock(&held, &boxed(WIDE[0], WIDE[1]), None, &path);
+    assert!((found[0].unwrap() - 6.0).abs() < 1e-9 && found[1].is_none(), "{found:?}");
+    // the stock ends at the holder's underside, or in plan where the holder does not come
+    let low = boxed(WIDE[0], [50.0, 50.0, -6.0]);
+    assert_eq!(in_stock(&held, &low, None, &path), [None; 2]);
+    let aside = boxed(WIDE[0], [4.9, 50.0, 0.0]);
+    assert_eq!(in_stock(&held, &aside, None, &path), [None; 2]);
+    let under = boxed(WIDE[0], [6.0, 50.0, 0.0]);
+    assert!(in_stock(&held, &under, None, &path)[0].is_some());
+}
+
+#[test]
+fn a_shank_in_a_slot_that_is_narrower() {
+    let wide = tool(r#", "shank_diameter": 10.0, "base": {"kind": "cylindrical", "height": 17.0}"#);
+    let found = in_stock(&wide, &boxed(WIDE[0], WIDE[1]), None, &along(&wide, 25.0, 0.0));
+    assert!((found[1].unwrap() - 10.0).abs() < 1e-9 && found[0].is_none(), "{found:?}");
+    assert_eq!(in_stock(&wide, &boxed(WIDE[0], WIDE[1]), None, &along(&wide, 25.0, 10.0)), [None; 2]);
+}
+
+#[test]
+fn what_was_cut_before_is_no_stock() {
+    let (held, long, stock) = (tool(HELD), tool(""), boxed(WIDE[0], WIDE[1]));
+    let rows = |step: f64| {
+        let mut path = Path::new().rapid([0.0, -60.0, CLEARANCE]);
+        for row in 0..=20 {
+            let x = f64::from(row) * step;
+            path = path.feed([x, -60.0, -30.0]).feed([x, 60.0, -30.0]).feed([x, 60.0, CLEARANCE]).rapid([
+                x + step,
+                -60.0,
+                CLEARANCE,
+            ]);
+        }
+        path.program(&long)
+    };
+    let (part, tools) = (step(), [long.clone()]);
+    let subject = Subject { stock: Some(&stock), ..part.subject(&tools) };
+    let before = |step: f64| cut_by(&rows(step), &subject, &limits());
+    let path = along(&held, 25.0, 0.0);
+    assert_eq!(in_stock(&held, &stock, Some(&before(2.5)), &path), [None; 2]);
+    // ridges of 4 mm stand between rows that are farther apart than the tool is wide
+    let found = in_stock(&held, &stock, Some(&before(10.0)), &path)[0].unwrap();
+    assert!((found - 6.0).abs() < 1e-9, "{found}");
+}
+
+#[test]
+fn what_the_profile_takes_on_the_way_down_is_not_under_the_holder() {
+    let held = tool(HELD);
+    let down = Path::new().rapid([25.0, 0.0, CLEARANCE]).feed([25.0, 0.0, -30.0]).program(&held);
+    let narrow = boxed([22.2, -2.8, -30.0], [27.8, 2.8, 0.0]);
+    // the corners of the box are outside the tool
+    assert!((in_stock(&held, &narrow, None, &down)[0].unwrap() - 6.0).abs() < 1e-9);
+    let within = boxed([23.0, -2.0, -30.0], [27.0, 2.0, 0.0]);
+    assert_eq!(in_stock(&held, &within, None, &down), [None; 2]);
+    let ramp = Path::new().rapid([23.9, 0.0, CLEARANCE]).feed([23.9, 0.0, 0.0]).feed([26.1, 0.0, -30.0]).program(&held);
+    let within = boxed([23.9, -2.0, -30.0], [26.1, 2.0, 0.0]);
+    assert_eq!(in_stock(&held, &within, None, &ramp), [None; 2]);
 }

@@ -71,3 +71,21 @@ pub(crate) static LEVEL_ABOVE: FaultKind = FaultKind::on_part(
     |fault| format!("stock stands here that the level at Z{:.3} is to take before", fault.value()),
     "post the job again: levels are cut from the top down",
 );
+pub(crate) static SHANK_IN_STOCK: FaultKind = FaultKind::on_part(
+    FindingKind::ShankCollision,
+    |fault| format!("the shank is in stock that stands up to {:.3} mm above its underside", fault.value()),
+    "use a tool with a longer base, or have an operation before it take what stands there",
+);
+pub(crate) static HOLDER_IN_STOCK: FaultKind = FaultKind::on_part(
+    FindingKind::HolderCollision,
+    |fault| format!("the holder is in stock that stands up to {:.3} mm above its underside", fault.value()),
+    "let the tool stick out farther, or have an operation before it take what stands there",
+);
+pub(crate) static DEEP_IN_STOCK: FaultKind = FaultKind::on_part(
+    FindingKind::StockAbove,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!("the pass cuts {value:.3} mm deep through stock at once (the tool is {limit:.3} mm wide)")
+    },
+    "have roughing take what stands there before",
+);

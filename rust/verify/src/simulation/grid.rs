@@ -64,6 +64,11 @@ impl Grid {
         [self.origin[0] + x as f64 * self.step[0], self.origin[1] + y as f64 * self.step[1]]
     }
 
+    /// Where the node of that number is in plan, mm: row by row from the lowest Y.
+    pub(super) fn position(&self, node: usize) -> Position {
+        self.at(node % self.nodes[0], node / self.nodes[0])
+    }
+
     pub(super) fn whole(&self) -> Region {
         Region { from: [0, 0], to: self.nodes }
     }

@@ -12,6 +12,7 @@ mod compare;
 mod cut;
 mod field;
 mod grid;
+mod material;
 mod mesh;
 mod stock;
 mod underside;
@@ -31,6 +32,7 @@ use field::{Field, Tile};
 use underside::Underside;
 
 pub use grid::Grid;
+pub(crate) use material::{Material, Moved};
 pub use mesh::Skin;
 pub use stock::Simulation;
 
@@ -52,24 +54,10 @@ pub fn simulate(
     watch.begin("simulating", grid.count());
     let level = Level { grid, top, sheet: subject.sheet.as_ref(), watch };
     let own: Vec<Stretch> = placed(program, subject, limits).iter().flat_map(stretches).collect();
-    let mut heights = level.cut(&own, subject.tools)?;
-    let mut before = None;
-    match subject.stock.map(|stock| (stock, stock.solid())) {
-        Some((stock, Some(solid))) => before = Some(upper_side(solid, stock.bottom, grid, watch)?),
-        Some((stock, None)) => clear_beside(stock, grid, &mut heights),
-        None => {}
-    }
-    if let Some(earlier) = subject.before {
-        let cut = level.cut(&earlier.stretches, &earlier.tools)?;
-        before = Some(match before {
-            Some(before) => lower(before, &cut),
-            None => cut,
-        });
-    }
-    if let Some(before) = &before {
-        heights = lower(heights, before);
-    }
-    Ok(Simulation { grid, heights, top, before })
+    let uncut = level.uncut(subject)?;
+    let heights = lower(level.cut(&own, subject.tools)?, &uncut);
+    let is_level = subject.before.is_none() && subject.stock.is_none_or(|stock| stock.solid().is_none());
+    Ok(Simulation { grid, heights, top, before: (!is_level).then_some(uncut) })
 }
 
 /// The lower of two heights at every node.
@@ -88,6 +76,30 @@ struct Level<'a> {
 }
 
 impl Level<'_> {
+    /// Heights at every node of what programs before have left of the stock, mm.
+    fn uncut(&self, subject: &Subject) -> Result<Vec<f64>, Cancelled> {
+        let heights = match subject.stock.map(|stock| (stock, stock.solid())) {
+            Some((stock, Some(solid))) => upper_side(solid, stock.bottom, self.grid, self.watch)?,
+            Some((stock, None)) => self.upright(stock),
+            None => vec![self.top; self.grid.count()],
+        };
+        match subject.before {
+            Some(before) => Ok(lower(heights, &self.cut(&before.stretches, &before.tools)?)),
+            None => Ok(heights),
+        }
+    }
+
+    /// Heights at every node over upright stock, mm: beside it that of its underside.
+    fn upright(&self, stock: &Stock) -> Vec<f64> {
+        let outlines = stock.outlines_between([stock.top, stock.bottom]);
+        let area = Area::new(&outlines, self.grid.step[0].max(self.grid.step[1]));
+        let pieces: Vec<PlanePiece> = outlines.iter().flat_map(|outline| PlanePiece::outline(outline)).collect();
+        // its own border belongs to it, whatever arithmetic makes of that
+        let is_in = |at: [f64; 2]| area.holds(at) || pieces.iter().any(|piece| piece.distance(at) <= SLACK);
+        let height = |at| if is_in(at) { self.top } else { self.top.min(stock.bottom) };
+        (0..self.grid.count()).map(|node| height(self.grid.position(node))).collect()
+    }
+
     /// Heights at every node after some moves, mm.
     fn cut(&self, stretches: &[Stretch], tools: &[Tool]) -> Result<Vec<f64>, Cancelled> {
         let tools: Vec<Underside> = tools.iter().map(|tool| Underside::new(tool, self.sheet)).collect();
@@ -101,28 +113,13 @@ impl Level<'_> {
 fn upper_side(solid: &Solid, bottom: f64, grid: Grid, watch: &Watch) -> Result<Vec<f64>, Cancelled> {
     let height = |node: usize| {
         watch.advance(0)?;
-        let [x, y] = grid.at(node % grid.nodes[0], node / grid.nodes[0]);
+        let [x, y] = grid.position(node);
         // its own border belongs to it, whatever arithmetic makes of that
         let beside = [[-SLACK, -SLACK], [SLACK, -SLACK], [-SLACK, SLACK], [SLACK, SLACK]];
         let around = || beside.into_iter().filter_map(|[dx, dy]| solid.height_at([x + dx, y + dy])).reduce(f64::max);
         Ok(solid.height_at([x, y]).or_else(around).unwrap_or(bottom))
     };
     (0..grid.count()).into_par_iter().with_min_len(1024).map(height).collect()
-}
-
-/// Lowers to the stock's underside what lies beside it.
-fn clear_beside(stock: &Stock, grid: Grid, heights: &mut [f64]) {
-    // its own border belongs to it, whatever arithmetic makes of that
-    let outlines = stock.outlines_between([stock.top, stock.bottom]);
-    let area = Area::new(&outlines, grid.step[0].max(grid.step[1]));
-    let pieces: Vec<PlanePiece> = outlines.iter().flat_map(|outline| PlanePiece::outline(outline)).collect();
-    let is_on_border = |at: [f64; 2]| pieces.iter().any(|piece| piece.distance(at) <= SLACK);
-    for (node, height) in heights.iter_mut().enumerate() {
-        let at = grid.at(node % grid.nodes[0], node / grid.nodes[0]);
-        if !area.holds(at) && !is_on_border(at) {
-            *height = height.min(stock.bottom);
-        }
-    }
 }
 
 /// What every move cuts, and the arcs that some of them are parts of.

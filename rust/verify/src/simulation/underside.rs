@@ -32,7 +32,11 @@ pub(super) struct Underside {
 impl Underside {
     /// Of a tool, or of the sheet's face under it that the sheet names.
     pub fn new(tool: &Tool, sheet: Option<&Sheet>) -> Self {
-        let (cutter, tip) = (tool.cutter_with(sheet, 0.0), -tool.tip_above(sheet, 0.0));
+        Self::raised(tool.cutter_with(sheet, 0.0), -tool.tip_above(sheet, 0.0))
+    }
+
+    /// Of a solid whose lowest point is `tip` mm over the tool's tip.
+    pub fn raised(cutter: Cutter, tip: f64) -> Self {
         let radius = cutter.max_radius();
         let rise = libm::tan(cutter.slope_at_radius(radius));
         let rim = if (0.0..UPRIGHT).contains(&rise) {
