@@ -39,7 +39,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
     if let Some(frame) = &frame {
         faults.extend(frame::faults(frame, program, &segments, &assignment, subject, limits));
     }
-    faults.extend(of_passes(program, &segments, &assignment, subject, limits, watch)?);
+    faults.extend(of_passes(program, &segments, &assignment, subject, limits, &faults, watch)?);
     let cleared = clearing::judged(program, &segments, &assignment, subject, limits, watch)?;
     faults.extend(cleared.faults);
     let leaning = leaning::judged(program, &assignment, subject, limits, watch)?;
@@ -103,13 +103,14 @@ fn measured(
     Ok((tally, edges.findings.into_iter().chain(contours.findings).collect()))
 }
 
-/// What is owed to the faces of the operations and is not there.
+/// What is owed to the faces of the operations and is not there, and what tools meet of the stock; `known` is what is known of the moves.
 fn of_passes(
     program: &Program,
     segments: &[Segment],
     assignment: &Assignment,
     subject: &Subject,
     limits: &Limits,
+    known: &[Fault],
     watch: &Watch,
 ) -> Result<Vec<Fault>, Cancelled> {
     let mut faults = passes::faults(program, segments, assignment, subject, limits, watch)?;
@@ -117,7 +118,7 @@ fn of_passes(
     faults.extend(bored::faults(program, segments, subject, limits));
     faults.extend(covered::faults(segments, assignment, subject, limits, watch)?);
     faults.extend(stock_above::faults(segments, subject, watch)?);
-    faults.extend(in_stock::faults(segments, subject, watch)?);
+    faults.extend(in_stock::faults(segments, subject, known, watch)?);
     Ok(faults)
 }
 

@@ -3,10 +3,10 @@
 
 mod common;
 
-use common::{limits, Part, Path, CLEARANCE};
+use common::{expected, limits, Part, Path, CLEARANCE};
 use styluscam_geometry::{ModelFace, Sheet, SheetLaw, Stock, Tool, Vector};
 use styluscam_motion::{Arc, Plane, Program, Watch};
-use styluscam_verify::{cut_by, judge, Before, FindingKind, Report, Subject};
+use styluscam_verify::{cut_by, judge, Before, Contact, FindingKind, Passes, Report, Severity, Subject};
 
 /// A floor at Z -30 and a wall at X 0 that rises to Z 0, 100 mm wide.
 fn step() -> Part {
@@ -103,6 +103,66 @@ fn a_shank_on_an_arc() {
     assert!(judged(&tool, None, &program).ok);
 }
 
+/// By how much a pass along the part is found to cut too deep, mm.
+fn deep(tool: &Tool, stock: &Stock, program: &Program) -> Option<f64> {
+    let (part, tools) = (step(), [tool.clone()]);
+    let expected = expected(&part, Contact::Touch, [-40.0, 0.0], Passes::Unordered { reason: "they are not" });
+    let subject = Subject { stock: Some(stock), stock_is_stated: true, expected: &expected, ..part.subject(&tools) };
+    let report = judge(program, &subject, &limits(), &Watch::default()).unwrap();
+    let found = report.findings.iter().filter(|finding| finding.kind == FindingKind::StockAbove);
+    assert!(found.clone().all(|finding| finding.severity == Severity::Warning));
+    found.map(|finding| finding.value_mm.unwrap()).reduce(f64::max)
+}
+
+/// Level at a height along Y 0 in moves of a length, from beside the stock.
+fn in_moves(tool: &Tool, z: f64, length: f64) -> Program {
+    let mut path = Path::new().rapid([-60.0, 0.0, CLEARANCE]).feed([-60.0, 0.0, z]);
+    let mut x = -60.0;
+    while x < 60.0 {
+        x += length;
+        path = path.feed([x, 0.0, z]);
+    }
+    path.program(tool)
+}
+
+#[test]
+fn a_pass_that_cuts_too_deep_is_found_however_short_its_moves_are() {
+    let (ball, stock) = (tool(""), boxed(WIDE[0], WIDE[1]));
+    for length in [120.0, 5.0, 2.0, 1.0, 0.5, 0.1] {
+        let found = deep(&ball, &stock, &in_moves(&ball, -20.0, length)).unwrap();
+        // a node is no farther from the axis than half a radius
+        assert!((19.5..=20.0).contains(&found), "{length}: {found}");
+        assert_eq!(deep(&ball, &stock, &in_moves(&ball, -6.0, length)), None, "{length}");
+    }
+}
+
+#[test]
+fn a_tool_much_narrower_than_the_stock_is_asked_too() {
+    let fine = Tool::new(serde_json::from_str(r#"{"profile": {"kind": "flat", "diameter": 0.8}}"#).unwrap()).unwrap();
+    for y in [0.0, 0.13, 0.25, 0.4] {
+        let stock = boxed([-250.0, -250.0 + y, -30.0], [250.0, 250.0 + y, 0.0]);
+        assert_eq!(deep(&fine, &stock, &in_moves(&fine, -20.0, 0.3)), Some(20.0), "{y}");
+    }
+}
+
+#[test]
+fn a_skin_on_a_wall_may_be_as_high_as_it_is() {
+    // along the wall of a corner and back along the other, with 0.5 mm on both
+    let ball = tool("");
+    let corner = [boxed([-50.0, -3.5, -30.0], [50.0, -3.0, 0.0]), boxed([3.0, -50.0, -30.0], [3.5, 50.0, 0.0])];
+    let mut path = Path::new().rapid([-60.0, 0.0, CLEARANCE]).feed([-60.0, 0.0, -20.0]);
+    for i in 0..=300 {
+        path = path.feed([-60.0 + 0.2 * f64::from(i), 0.0, -20.0]);
+    }
+    for i in 0..=300 {
+        path = path.feed([0.0, 0.2 * f64::from(i), -20.0]);
+    }
+    let program = path.program(&ball);
+    for stock in corner {
+        assert_eq!(deep(&ball, &stock, &program), None);
+    }
+}
+
 /// The floor in a box of stock, what was cut of that before, and how far the holder and the shank are in it, mm.
 fn in_stock(tool: &Tool, stock: &Stock, before: Option<&Before>, program: &Program) -> [Option<f64>; 2] {
     let (part, tools) = (step(), [tool.clone()]);
@@ -178,4 +238,30 @@ fn what_the_profile_takes_on_the_way_down_is_not_under_the_holder() {
     let ramp = Path::new().rapid([23.9, 0.0, CLEARANCE]).feed([23.9, 0.0, 0.0]).feed([26.1, 0.0, -30.0]).program(&held);
     let within = boxed([23.9, -2.0, -30.0], [26.1, 2.0, 0.0]);
     assert_eq!(in_stock(&held, &within, None, &ramp), [None; 2]);
+}
+
+#[test]
+fn a_holder_in_a_wall_of_stock_on_an_arc() {
+    // round a block from outside: chords of the path would be farther off than the holder reaches into it
+    let held = tool(HELD);
+    let stock = Stock::cylinder([0.0; 2], 45.0, [-30.0, 0.0]);
+    for (over, is_found) in [(0.04, false), (0.7, true), (1.0, true)] {
+        let side = (65.0 - over) * std::f64::consts::FRAC_1_SQRT_2;
+        let ends = [[side, -side, -30.0], [side, side, -30.0]];
+        let mut program = Path::new().rapid([side, -side, CLEARANCE]).feed(ends[0]).feed(ends[1]).program(&held);
+        program.moves[2].arc = Some(Arc { centre: [0.0; 3], plane: Plane::Xy, clockwise: false, turns: 0 });
+        let found = in_stock(&held, &stock, None, &program)[0];
+        assert_eq!(found.is_some(), is_found, "{over}: {found:?}");
+    }
+}
+
+#[test]
+fn a_holder_in_the_part_is_not_said_to_be_in_stock() {
+    let (part, held, stock) = (step(), tool(HELD), boxed([-50.0, -50.0, -30.0], [0.0, 50.0, 0.0]));
+    let tools = [held.clone()];
+    let subject = Subject { stock: Some(&stock), stock_is_stated: true, ..part.subject(&tools) };
+    let report = judge(&along(&held, 10.0, 0.0), &subject, &limits(), &Watch::default()).unwrap();
+    let found: Vec<_> = report.findings.iter().filter(|finding| finding.kind == FindingKind::HolderCollision).collect();
+    assert!(found.iter().all(|finding| finding.message.contains("enters the part")), "{found:?}");
+    assert!(!found.is_empty());
 }

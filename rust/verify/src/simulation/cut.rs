@@ -4,7 +4,6 @@ use styluscam_motion::ArcPath;
 
 use super::underside::Underside;
 use crate::body::length;
-use crate::segments::Segment;
 
 /// Newton's steps at most, on straight and on bent paths.
 const STEPS: [usize; 2] = [60, 6];
@@ -63,14 +62,6 @@ impl Cut {
     /// All of the arc of that index.
     pub fn bent(path: &ArcPath, arc: u32, tool: u32) -> Self {
         Self::straight([0.0; 3], [0.0; 3], tool).of_part(path, arc, [0.0, 1.0])
-    }
-
-    /// The piece of a move.
-    pub fn of_piece(piece: &Segment) -> Self {
-        match piece.bend {
-            Some(bend) => Self::bent(&bend, 0, 0),
-            None => Self::straight(piece.start.unwrap_or(piece.end), piece.end, 0),
-        }
     }
 
     /// A part of the arc, given by its ends and its middle.

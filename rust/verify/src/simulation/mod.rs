@@ -32,7 +32,7 @@ use field::{Field, Tile};
 use underside::Underside;
 
 pub use grid::Grid;
-pub(crate) use material::{Material, Moved};
+pub(crate) use material::{Material, Moved, Overlap};
 pub use mesh::Skin;
 pub use stock::Simulation;
 

@@ -1,0 +1,126 @@
+//! Passes that follow the part and cut deeper through the stock at once than their tool is wide.
+//!
+//! They have no levels of their own: where nothing has roughed, they cut as deep as the stock stands. What counts is what stands about the
+//! tool's axis, so that a wall whose skin is left may be finished at any height. The tool's front takes that before its axis is there:
+//! pieces of the path are held back from the material until the tool has gone on by its radius, lifts, or is deeper by half of it.
+
+use std::collections::VecDeque;
+
+use styluscam_geometry::Stock;
+use styluscam_motion::{Cancelled, Watch};
+
+use super::divided::{grid, pieces};
+use crate::expectation::Passes;
+use crate::faults::{self, Fault};
+use crate::segments::{Segment, SegmentKind};
+use crate::simulation::{Material, Moved, Overlap};
+use crate::subject::Subject;
+
+/// How near to the axis what stands is cut by the tool's middle, as a share of its radius.
+const MIDDLE: f64 = 0.5;
+/// Nodes are so far apart, as a share of the narrowest tool's radius.
+const SPACING: f64 = 0.5;
+/// Chords are nearer to arcs than this share of the tool's radius.
+const SAG: f64 = 0.01;
+/// Pieces of a move are no longer than so many radii: the box in plan around one is looked at.
+const LONGEST: f64 = 8.0;
+/// Pieces that are higher than the tool by more than this share of its radius are another level's.
+const DEEPER: f64 = 0.5;
+
+/// The moves that cut too deep, as warnings.
+pub(super) fn faults(
+    segments: &[Segment],
+    (subject, stock): (&Subject, &Stock),
+    watch: &Watch,
+) -> Result<Vec<Fault>, Cancelled> {
+    let tools: Vec<Moved> = subject.tools.iter().map(Moved::profile).collect();
+    let tool_of = |segment: &Segment| tools.get(segment.tool?);
+    let may_be_deep = |segment: &Segment| {
+        let is_deep = |tool: &Moved| segment.lowest() < stock.top - 2.0 * tool.radius();
+        follows_part(segment, subject) && tool_of(segment).is_some_and(is_deep)
+    };
+    let ends = segments.iter().position(may_be_deep).zip(segments.iter().rposition(may_be_deep));
+    let asked = segments.iter().filter(|segment| may_be_deep(segment)).filter_map(tool_of);
+    let narrowest = asked.map(Moved::radius).fold(f64::INFINITY, f64::min);
+    let Some(((first, last), grid)) = ends.zip(grid(stock, SPACING * narrowest)) else { return Ok(Vec::new()) };
+    let mut path = Path {
+        material: Material::after(&segments[..first], subject, grid, stock.top, watch)?,
+        held: VecDeque::new(),
+        length: 0.0,
+    };
+    watch.begin("depth in the stock", last + 1 - first);
+    let mut faults = Vec::new();
+    for segment in &segments[first..=last] {
+        watch.advance(1)?;
+        let Some(tool) = tool_of(segment).filter(|_| segment.lowest() < stock.top) else { continue };
+        let limit = may_be_deep(segment).then_some(2.0 * tool.radius());
+        if let Some((found, z)) = path.follow(segment, tool, limit) {
+            let fault = segment.fault(&faults::DEEP_IN_STOCK).measured(found.by, 2.0 * tool.radius());
+            faults.push(Fault { position: [found.at[0], found.at[1], z], ..fault }.warning());
+        }
+    }
+    Ok(faults)
+}
+
+/// Whether a move cuts along the part, wherever that takes it; other passes have levels of their own, which are checked.
+fn follows_part(segment: &Segment, subject: &Subject) -> bool {
+    let is_cutting = matches!(segment.kind, SegmentKind::Lateral | SegmentKind::Plunge);
+    let expected = segment.expected.and_then(|number| subject.expected.get(number)).filter(|_| is_cutting);
+    expected.is_some_and(|operation| match &operation.expectation.passes {
+        Passes::Ordered(_)
+        | Passes::Crossed(_)
+        | Passes::Flank(_)
+        | Passes::Chamfering(_)
+        | Passes::Covering { .. }
+        | Passes::Unordered { .. } => true,
+        Passes::Clearing(_) | Passes::Contouring(_) | Passes::Drilling(_) | Passes::Boring(_) => false,
+    })
+}
+
+/// A path through the material.
+struct Path<'a> {
+    material: Material,
+    /// Its last pieces, which the material still has, with what cuts them.
+    held: VecDeque<(Segment, &'a Moved)>,
+    /// Their length, mm.
+    length: f64,
+}
+
+impl<'a> Path<'a> {
+    /// Goes on along a move: where what stands about the axis is higher over the tool than `limit` mm, and the tip's height there.
+    fn follow(&mut self, segment: &Segment, tool: &'a Moved, limit: Option<f64>) -> Option<(Overlap, f64)> {
+        if segment.kind != SegmentKind::Lateral {
+            self.settle(0.0, f64::NEG_INFINITY); // it lifts, or comes down
+        }
+        // where nodes are far apart, one on either side of the axis at least
+        let within = (MIDDLE * tool.radius()).max(0.51 * self.material.spacing()).min(tool.radius());
+        let mut worst: Option<(Overlap, f64)> = None;
+        for piece in pieces(segment, LONGEST * tool.radius(), SAG * tool.radius()) {
+            self.settle(tool.radius(), piece.lowest() + DEEPER * tool.radius());
+            if let Some(limit) = limit {
+                let least = worst.map_or(limit, |(worst, _)| worst.by);
+                let found = self.material.overlap(&piece, tool, within, least);
+                worst = found.map(|found| (found, piece.lowest())).or(worst);
+            }
+            self.length += piece.length();
+            self.held.push_back((piece, tool));
+        }
+        worst
+    }
+
+    /// Takes the pieces that are farther back than `length` mm, and those before one that is higher than `height` mm.
+    fn settle(&mut self, length: f64, height: f64) {
+        let higher = self.held.iter().rposition(|(piece, _)| piece.lowest() > height).map_or(0, |last| last + 1);
+        let mut count = 0;
+        while let Some((piece, tool)) = self.held.front() {
+            let own = piece.length();
+            if count >= higher && self.length - own < length {
+                break;
+            }
+            self.material.cut(piece, tool);
+            self.length -= own;
+            self.held.pop_front();
+            count += 1;
+        }
+    }
+}
