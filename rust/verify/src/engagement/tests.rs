@@ -115,6 +115,21 @@ fn a_wall_is_no_material_and_what_is_cut_twice_is_none() {
 }
 
 #[test]
+fn a_link_back_to_where_a_cut_ended_a_radius_before_cuts_nothing() {
+    for i in 0..360 {
+        let turned = |[x, y]: [f64; 2]| {
+            let (sin, cos) = (f64::from(i) * 0.0175).sin_cos();
+            [x * cos - y * sin + 0.53, x * sin + y * cos + 11.699, 0.0]
+        };
+        let end = turned([0.0, 0.0]);
+        let cut = run(vec![turned([-20.0, 0.0]), end], PlaneRunKind::Cut);
+        let link = run([[0.0, 0.0], [-1.0, 0.0], [0.0, 0.0]].map(turned).to_vec(), PlaneRunKind::Link);
+        let found = measured(&[cut, link], R, &[rectangle(100.0, 100.0)]);
+        assert!(largest(&found[1]) < 1e-3, "{i}: {}", largest(&found[1]));
+    }
+}
+
+#[test]
 fn coming_down_into_material_engages_all_around_and_into_air_nothing() {
     let ring = [rectangle(50.0, 50.0), rectangle(10.0, 10.0)];
     let down = |x: f64| run(vec![[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0]], PlaneRunKind::Cut);

@@ -15,6 +15,9 @@ use super::sweeps::{Search, Sweeps};
 
 /// Ends of runs that lie nearer than this are one position, mm.
 const SAME: f64 = 1e-6;
+/// Recent discs are larger than the tool by this, mm: a rim on the edge of one, where the tool has come back to a position, cuts nothing.
+/// It takes some millionths of a radian off the chip of a step.
+const COINCIDES: f64 = 1e-7;
 /// Turns above this are corners of the path, rad.
 const CORNER: f64 = 0.01;
 /// Circles on which it is looked for what stands under a tool that goes straight down.
@@ -211,7 +214,7 @@ impl Walk {
 
     /// Keeps of the open directions those in which stock stands on a circle.
     fn keep_standing(&mut self, rim: &Rim) {
-        let exact = self.radius;
+        let recent = self.radius + COINCIDES;
         let scratch = &mut self.scratch;
         // first what leaves least to look at: in most places the stock's outlines
         for area in [&self.pocket, &self.stock] {
@@ -225,7 +228,7 @@ impl Walk {
                 continue;
             }
             let swept = if *end > self.behind { piece.up_to(1.0 - (end - self.behind) / length) } else { *piece };
-            self.open.keep(|interval, left| rim.outside_sweep(interval, &swept, exact, scratch, left));
+            self.open.keep(|interval, left| rim.outside_sweep(interval, &swept, recent, scratch, left));
         }
         for (swept, search) in [&self.swept, &self.cleared].into_iter().zip(&mut self.searches) {
             self.open.keep(|interval, left| swept.outside(rim, interval, search, left));
