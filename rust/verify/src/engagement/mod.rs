@@ -8,7 +8,7 @@
 //! So a direction ahead is engaged where the rim's point lies in the pocket, in the stock, outside the discs of the tool's radius along
 //! the path of the last radius up to one step of 0.02 radii before, and outside the discs 1 um larger along all that came
 //! earlier (more, where the text rounds positions). The 1 um is not taken off the chip that the step itself cuts, which thins out towards the sides at any depth: that would
-//! take a degree off every angle. The discs along a straight or circular piece are exactly the points within the
+//! take a degree off every angle; but 1e-7 mm is, so that a rim on the edge of a disc cuts nothing. The discs along a straight or circular piece are exactly the points within the
 //! radius of the piece: the angles at which the rim enters and leaves them are those of crossings with circles and lines,
 //! found in closed form. Nothing is sampled but the positions along the path, a step apart and at its corners.
 //!
