@@ -23,7 +23,7 @@ pub(crate) fn level_moves<'a>(
     limits: &'a Limits,
 ) -> impl Iterator<Item = Segment> + 'a {
     let mut away_from: Option<f64> = None;
-    segments.iter().flat_map(Segment::pieces).filter(move |segment| {
+    segments.iter().flat_map(|segment| segment.pieces()).filter(move |segment| {
         let along = at_cut(program, segment, order, limits)
             && matches!(segment.kind, SegmentKind::Plunge | SegmentKind::Retract);
         match (segment.kind, away_from, segment.start) {

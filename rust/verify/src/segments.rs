@@ -78,15 +78,15 @@ impl Segment {
     }
 
     /// The pieces of an arc, or of a move that should touch and is long, one after the other; ends are kept to the bit.
-    pub fn pieces(&self) -> impl Iterator<Item = Self> + '_ {
-        let share = |i: u32| f64::from(i) / f64::from(self.pieces);
+    pub fn pieces(self) -> impl Iterator<Item = Self> {
+        let share = move |i: u32| f64::from(i) / f64::from(self.pieces);
         let at = move |i: u32| self.at(share(i));
         (0..self.pieces).map(move |i| Self {
             start: if i == 0 { self.start } else { Some(at(i)) },
             end: if i + 1 == self.pieces { self.end } else { at(i + 1) },
             bend: self.bend.map(|bend| bend.part(share(i), share(i + 1))),
             pieces: 1,
-            ..*self
+            ..self
         })
     }
 

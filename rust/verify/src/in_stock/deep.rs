@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use styluscam_geometry::Stock;
 use styluscam_motion::{Cancelled, Watch};
 
-use super::divided::{grid, pieces};
+use super::divided::{asked, pieces, LONGEST};
 use crate::expectation::Passes;
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
@@ -22,8 +22,6 @@ const MIDDLE: f64 = 0.5;
 const SPACING: f64 = 0.5;
 /// Chords are nearer to arcs than this share of the tool's radius.
 const SAG: f64 = 0.01;
-/// Pieces of a move are no longer than so many radii: the box in plan around one is looked at.
-const LONGEST: f64 = 8.0;
 /// Pieces that are higher than the tool by more than this share of its radius are another level's.
 const DEEPER: f64 = 0.5;
 
@@ -39,24 +37,21 @@ pub(super) fn faults(
         let is_deep = |tool: &Moved| segment.lowest() < stock.top - 2.0 * tool.radius();
         follows_part(segment, subject) && tool_of(segment).is_some_and(is_deep)
     };
-    let ends = segments.iter().position(may_be_deep).zip(segments.iter().rposition(may_be_deep));
-    let asked = segments.iter().filter(|segment| may_be_deep(segment)).filter_map(tool_of);
-    let narrowest = asked.map(Moved::radius).fold(f64::INFINITY, f64::min);
-    let Some(((first, last), grid)) = ends.zip(grid(stock, SPACING * narrowest)) else { return Ok(Vec::new()) };
-    let mut path = Path {
-        material: Material::after(&segments[..first], subject, grid, stock.top, watch)?,
-        held: VecDeque::new(),
-        length: 0.0,
+    let cutting = segments.iter().filter(|segment| may_be_deep(segment)).filter_map(tool_of);
+    let spacing = SPACING * cutting.map(Moved::radius).fold(f64::INFINITY, f64::min);
+    let Some((segments, material)) = asked(segments, may_be_deep, spacing, (subject, stock), watch)? else {
+        return Ok(Vec::new());
     };
-    watch.begin("depth in the stock", last + 1 - first);
+    let mut path = Path { material, held: VecDeque::new(), length: 0.0 };
+    watch.begin("depth in the stock", segments.len());
     let mut faults = Vec::new();
-    for segment in &segments[first..=last] {
+    for segment in segments {
         watch.advance(1)?;
         let Some(tool) = tool_of(segment).filter(|_| segment.lowest() < stock.top) else { continue };
         let limit = may_be_deep(segment).then_some(2.0 * tool.radius());
-        if let Some((found, z)) = path.follow(segment, tool, limit) {
-            let fault = segment.fault(&faults::DEEP_IN_STOCK).measured(found.by, 2.0 * tool.radius());
-            faults.push(Fault { position: [found.at[0], found.at[1], z], ..fault }.warning());
+        if let Some(Overlap { by, at: position }) = path.follow(segment, tool, limit) {
+            let fault = segment.fault(&faults::DEEP_IN_STOCK).measured(by, 2.0 * tool.radius());
+            faults.push(Fault { position, ..fault }.warning());
         }
     }
     Ok(faults)
@@ -87,20 +82,19 @@ struct Path<'a> {
 }
 
 impl<'a> Path<'a> {
-    /// Goes on along a move: where what stands about the axis is higher over the tool than `limit` mm, and the tip's height there.
-    fn follow(&mut self, segment: &Segment, tool: &'a Moved, limit: Option<f64>) -> Option<(Overlap, f64)> {
+    /// Goes on along a move: where what stands about the axis is higher over the tool than `limit` mm.
+    fn follow(&mut self, segment: &Segment, tool: &'a Moved, limit: Option<f64>) -> Option<Overlap> {
         if segment.kind != SegmentKind::Lateral {
             self.settle(0.0, f64::NEG_INFINITY); // it lifts, or comes down
         }
         // where nodes are far apart, one on either side of the axis at least
         let within = (MIDDLE * tool.radius()).max(0.51 * self.material.spacing()).min(tool.radius());
-        let mut worst: Option<(Overlap, f64)> = None;
+        let mut worst: Option<Overlap> = None;
         for piece in pieces(segment, LONGEST * tool.radius(), SAG * tool.radius()) {
             self.settle(tool.radius(), piece.lowest() + DEEPER * tool.radius());
             if let Some(limit) = limit {
-                let least = worst.map_or(limit, |(worst, _)| worst.by);
-                let found = self.material.overlap(&piece, tool, within, least);
-                worst = found.map(|found| (found, piece.lowest())).or(worst);
+                let least = worst.map_or(limit, |worst| worst.by);
+                worst = self.material.overlap(&piece, tool, within, least).or(worst);
             }
             self.length += piece.length();
             self.held.push_back((piece, tool));

@@ -12,7 +12,6 @@ use std::collections::BTreeSet;
 
 use styluscam_motion::{Cancelled, Watch};
 
-use crate::expectation::Passes;
 use crate::faults::Fault;
 use crate::segments::Segment;
 use crate::subject::Subject;
@@ -35,7 +34,7 @@ pub(crate) fn faults(
     let known: BTreeSet<_> = known.iter().map(|fault| (fault.kind.finding, fault.index)).collect();
     let mut found = overhang::faults(segments, (subject, stock), watch)?;
     found.retain(|fault| !known.contains(&(fault.kind.finding, fault.index)));
-    if subject.expected.iter().any(|operation| matches!(operation.expectation.passes, Passes::Flank(_))) {
+    if subject.expected.iter().any(|operation| operation.expectation.flank().is_some()) {
         // what a leaning tool takes is not known here
         found = found.into_iter().map(Fault::warning).collect();
     }

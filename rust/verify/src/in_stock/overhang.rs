@@ -3,10 +3,10 @@
 //! A tool takes what its profile sweeps in a short piece of a move; then what is above the profile, and wider, is compared with what
 //! stands. So what the profile takes is gone before shank and holder follow it down, and what stands beside it is not.
 
-use styluscam_geometry::{Stock, Tool, ToolPart};
+use styluscam_geometry::{Cutter, Stock, Tool, ToolPart};
 use styluscam_motion::{Cancelled, Watch};
 
-use super::divided::{grid, pieces};
+use super::divided::{asked, pieces, LONGEST};
 use crate::faults::{self, Fault, FaultKind};
 use crate::segments::Segment;
 use crate::simulation::{Material, Moved, Overlap};
@@ -23,15 +23,11 @@ const SAG: f64 = 5e-3;
 /// Pieces of a move are as long as a solid is wider than the profile at most, but no shorter than this share of the profile's radius: what
 /// stands beside the path is found anyway.
 const SHORTEST: f64 = 0.25;
-/// Nor longer than so many of its radii: the box in plan around one is looked at.
-const LONGEST: f64 = 8.0;
 
 /// A solid that a tool has above its profile, and wider.
 struct Overhang {
     kind: &'static FaultKind,
     solid: Moved,
-    /// Height of its lowest point over the tip, mm.
-    height: f64,
 }
 
 /// A tool as it cuts.
@@ -51,16 +47,15 @@ pub(super) fn faults(
     let tools: Vec<Loaded> = subject.tools.iter().map(Loaded::new).collect();
     let tool_of = |segment: &Segment| tools.get(segment.tool?);
     let may_be_in = |segment: &Segment| tool_of(segment).is_some_and(|tool| tool.is_under(stock.top, segment));
-    let ends = segments.iter().position(may_be_in).zip(segments.iter().rposition(may_be_in));
     let overhangs = tools.iter().flat_map(|tool| &tool.overhangs);
     let narrowest = overhangs.map(|overhang| overhang.solid.radius()).fold(f64::INFINITY, f64::min);
-    let Some(((first, last), grid)) = ends.zip(grid(stock, SPACING.min(OF_RADIUS * narrowest))) else {
+    let spacing = SPACING.min(OF_RADIUS * narrowest);
+    let Some((segments, mut material)) = asked(segments, may_be_in, spacing, (subject, stock), watch)? else {
         return Ok(Vec::new());
     };
-    let mut material = Material::after(&segments[..first], subject, grid, stock.top, watch)?;
-    watch.begin("shank and holder in the stock", last + 1 - first);
+    watch.begin("shank and holder in the stock", segments.len());
     let mut faults = Vec::new();
-    for segment in &segments[first..=last] {
+    for segment in segments {
         watch.advance(1)?;
         if let Some(tool) = tool_of(segment).filter(|_| segment.lowest() < stock.top) {
             faults.extend(tool.move_along(segment, &mut material, stock.top));
@@ -85,7 +80,7 @@ impl Loaded {
 
     /// Takes what its profile sweeps, and finds what of it is in the material under `top`.
     fn move_along(&self, segment: &Segment, material: &mut Material, top: f64) -> Vec<Fault> {
-        let mut worst: Vec<Option<(Overlap, f64)>> = vec![None; self.overhangs.len()];
+        let mut worst: Vec<Option<Overlap>> = vec![None; self.overhangs.len()];
         // straight up: it is where the move before has brought it
         let lifts = segment.start.is_some() && !segment.travels() && !segment.descends();
         for piece in pieces(segment, self.longest, SAG) {
@@ -93,32 +88,28 @@ impl Loaded {
             let is_asked = |overhang: &Overhang| !lifts && overhang.is_under(top, &piece);
             let asked = self.overhangs.iter().zip(&mut worst).filter(|(overhang, _)| is_asked(overhang));
             for (overhang, worst) in asked {
-                let least = worst.map_or(SLIGHT, |(worst, _)| worst.by);
+                let least = worst.map_or(SLIGHT, |worst| worst.by);
                 let within = overhang.solid.radius() - SLIGHT;
-                let found = material.overlap(&piece, &overhang.solid, within, least);
-                *worst = found.map(|found| (found, piece.lowest())).or(*worst);
+                *worst = material.overlap(&piece, &overhang.solid, within, least).or(*worst);
             }
         }
         let found =
             worst.into_iter().zip(&self.overhangs).filter_map(|(worst, overhang)| Some((worst?, overhang.kind)));
-        let fault = |((Overlap { by, at: [x, y] }, z), kind)| Fault {
-            position: [x, y, z],
-            ..segment.fault(kind).measured(by, 0.0)
-        };
+        let fault = |(Overlap { by, at: position }, kind)| Fault { position, ..segment.fault(kind).measured(by, 0.0) };
         found.map(fault).collect()
     }
 }
 
 impl Overhang {
-    fn new((part, cutter, height): (ToolPart, styluscam_geometry::Cutter, f64)) -> Self {
+    fn new((part, cutter, height): (ToolPart, Cutter, f64)) -> Self {
         let kind = match part {
             ToolPart::Shank => &faults::SHANK_IN_STOCK,
             ToolPart::Holder => &faults::HOLDER_IN_STOCK,
         };
-        Self { kind, solid: Moved::above(cutter, height), height }
+        Self { kind, solid: Moved::above(cutter, height) }
     }
 
     fn is_under(&self, top: f64, segment: &Segment) -> bool {
-        segment.lowest() + self.height < top - SLIGHT
+        segment.lowest() + self.solid.lowest() < top - SLIGHT
     }
 }

@@ -34,8 +34,8 @@ pub(crate) struct Moved(Underside);
 pub(crate) struct Overlap {
     /// By so much, mm.
     pub by: f64,
-    /// There in plan, mm.
-    pub at: [f64; 2],
+    /// There in plan, at the lowest height of the tip, mm.
+    pub at: [f64; 3],
 }
 
 impl Moved {
@@ -47,6 +47,11 @@ impl Moved {
     /// A solid whose lowest point is `height` mm over the tool's tip.
     pub fn above(cutter: Cutter, height: f64) -> Self {
         Self(Underside::raised(cutter, height))
+    }
+
+    /// Height of its lowest point over the tool's tip, mm.
+    pub fn lowest(&self) -> f64 {
+        self.0.height(0.0)
     }
 
     /// mm.
@@ -78,10 +83,10 @@ impl Material {
     pub fn cut(&mut self, piece: &Segment, by: &Moved) {
         let path = straight(piece);
         let ([[x0, x1], [y0, y1]], lowest) = (nodes_around(&self.grid, &path, by.radius()), piece.lowest());
-        for node in (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y))).map(|(x, y)| y * self.grid.nodes[0] + x) {
-            let height = &mut self.heights[node];
+        for (x, y) in (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y))) {
+            let height = &mut self.heights[y * self.grid.nodes[0] + x];
             if *height > lowest {
-                *height = height.min(path.over(&by.0, self.grid.position(node)).0);
+                *height = height.min(path.over(&by.0, self.grid.at(x, y)).0);
             }
         }
     }
@@ -89,26 +94,27 @@ impl Material {
     /// Where the material is most above the underside of a solid on a straight piece of a move, if that is more than `least` mm; no
     /// farther from the path of its axis in plan than `within` mm.
     pub fn overlap(&mut self, piece: &Segment, solid: &Moved, within: f64, least: f64) -> Option<Overlap> {
-        let (path, lowest) = (straight(piece), piece.lowest() + solid.0.height(0.0));
+        let (path, tip) = (straight(piece), piece.lowest());
         let [columns, rows] = nodes_around(&self.grid, &path, within).map(|[from, to]| from / TILE..to.div_ceil(TILE));
         let mut worst = None;
         for tile in rows.flat_map(|row| columns.clone().map(move |column| [column, row])) {
             let most = worst.map_or(least, |worst: Overlap| worst.by);
-            if self.highest[tile[1] * self.columns + tile[0]] - lowest > most {
-                worst = self.overlap_in(tile, (&path, solid), (lowest, within, most)).or(worst);
+            if self.highest[tile[1] * self.columns + tile[0]] - (tip + solid.lowest()) > most {
+                worst = self.overlap_in(tile, (&path, solid), (tip, within, most)).or(worst);
             }
         }
         worst
     }
 
-    /// The same in a tile; nothing of the solid is lower than `lowest`.
+    /// The same in a tile; the tip is nowhere lower than `tip`.
     fn overlap_in(
         &mut self,
         [column, row]: [usize; 2],
         (path, solid): (&Cut, &Moved),
-        (lowest, within, least): (f64, f64, f64),
+        (tip, within, least): (f64, f64, f64),
     ) -> Option<Overlap> {
         let ([width, depth], mut highest, mut worst) = (self.grid.nodes, f64::NEG_INFINITY, None);
+        let lowest = tip + solid.lowest();
         let nodes = |tile: usize, count: usize| tile * TILE..count.min((tile + 1) * TILE);
         for (x, y) in nodes(row, depth).flat_map(|y| nodes(column, width).map(move |x| (x, y))) {
             let height = self.heights[y * width + x];
@@ -118,7 +124,7 @@ impl Material {
             if height - lowest > most && path.distance(at) <= within {
                 let by = height - path.over(&solid.0, at).0;
                 if by > most {
-                    worst = Some(Overlap { by, at });
+                    worst = Some(Overlap { by, at: [at[0], at[1], tip] });
                 }
             }
         }
