@@ -489,3 +489,39 @@ def is_foot(edge):
     BRepBndLib.AddOptimal_s(edge, box, False, False)
     low_x, low_y, low_z, high_x, high_y, high_z = box.Get()
     return high_x - low_x > 100.0 and abs(low_z - 10.0) < 1e-3 > abs(high_z - 10.0) and 60.0 < low_y < 90.0 > high_y
+
+
+def test_slopes_that_roughing_leaves_in_high_steps_are_cut_by_wider_balls_before_the_finishing(cli, tmp_path):
+    part = FIXTURES / "corpus" / "slice" / "terrain-00.stl"
+    job = tmp_path / "terrain.toml"
+    assert cli("new", part, "--units", "mm", "--out", job).code == 0
+    document = sc.Job.read(job).document
+    works = {operation["id"]: operation for operation in document["operations"]}
+    assert list(works) == ["roughing", "semi-finishing", "semi-finishing-2", "walls", "floors"]
+    profiles = [document["tools"][operation["tool"]]["profile"] for operation in works.values()]
+    assert [profile["kind"] for profile in profiles] == ["flat", "ball", "ball", "ball", "ball"]
+    widths = [profile["diameter"] for profile in profiles]
+    assert widths == sorted(widths, reverse=True) and widths[1] > widths[2] > widths[3]
+    for name in ("semi-finishing", "semi-finishing-2"):
+        assert works[name]["radial_stock_to_leave"] == works[name]["axial_stock_to_leave"] > 0.0
+        assert set(works[name]["faces"]) == {*works["walls"]["faces"], *works["floors"]["faces"]}
+    text = job.read_text().replace("\n#   ", " ")
+    assert re.search(r"# - the finishing tool of 2 mm would cut up to 1\d\.\d mm deep at once", text)
+
+
+def test_the_roughing_tool_gets_to_where_the_finishing_tool_would_cut_too_deep(cli, tmp_path):
+    """A gap of 6.2 mm around a pillar, 16 mm deep: a tool of 8 mm would leave all of it to one of 3 mm."""
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+
+    block = BRepPrimAPI_MakeBox(120.0, 60.0, 20.0).Shape()
+    pocket = BRepPrimAPI_MakeBox(gp_Pnt(10.0, 10.0, 4.0), 100.0, 22.4, 20.0).Shape()
+    pillar = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(60.0, 21.2, 0.0), gp_Dir(0.0, 0.0, 1.0)), 5.0, 20.0).Shape()
+    shape = BRepAlgoAPI_Fuse(BRepAlgoAPI_Cut(block, pocket).Shape(), pillar).Shape()
+    write_step(shape, tmp_path / "gap.step")
+    job = tmp_path / "gap.toml"
+    assert cli("new", tmp_path / "gap.step", "--out", job).code == 0
+    document = sc.Job.read(job).document
+    assert document["tools"]["rougher"]["profile"]["diameter"] <= 6.0
+    assert "semi-finisher" not in document["tools"]

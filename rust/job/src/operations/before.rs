@@ -1,8 +1,9 @@
 //! What the programs and the operations before one do, and what of a layer of stock they have cleared.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use styluscam_geometry::Tool;
+use styluscam_geometry::{Cutter, Tool};
 use styluscam_motion::{Move, MoveKind};
 use styluscam_toolpath::pocket::Cleared;
 
@@ -46,14 +47,16 @@ impl Before<'_> {
 fn cleared<'a>(moves: &[Move], tool_of: impl Fn(u32) -> Option<&'a Tool>, [top, floor]: [f64; 2]) -> Vec<Cleared> {
     let mut cleared: Vec<Cleared> = Vec::new();
     let mut end = None;
+    let mut cutters: BTreeMap<u32, Option<Cutter>> = BTreeMap::new();
     for pair in moves.windows(2) {
         let [before, step] = pair else { continue };
         if !(before.end.axis.is_up() && step.end.axis.is_up()) {
             continue; // what a leaning tool sweeps is no area in plan
         }
         let Some((points, highest)) = low(before.end.tip, step, floor) else { continue };
-        let Some(tool) = tool_of(step.operation) else { continue };
-        let radius = tool.cutter().at_height(top - highest).0;
+        let cutter = cutters.entry(step.operation).or_insert_with(|| tool_of(step.operation).map(Tool::cutter));
+        let Some(cutter) = cutter else { continue };
+        let radius = cutter.at_height(top - highest).0;
         match cleared.last_mut().filter(|_| end == Some((before.end.tip, radius))) {
             Some(path) => {
                 path.points.pop();

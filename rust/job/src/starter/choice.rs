@@ -2,13 +2,15 @@
 
 use styluscam_geometry::{Bvh, Frame, Mesh};
 
-use super::drilling::drilling;
+use super::drilling::{drilling, Drilled};
+use super::operations::{self, Milled};
 use super::part::StarterPart;
+use super::preparing::preparing;
 use super::roughing::{roughing, Allowances};
+use super::sizes;
 use super::work::Work;
 use super::workable::{covered, workable};
-use super::{operations, sizes};
-use crate::body::{Body, FaceLook, Shell, Side, Thickness};
+use crate::body::{Body, FaceLook, Hollows, Shell, Side, Thickness};
 use crate::UpAxis;
 
 /// Share of the area hidden from above that is worth a word.
@@ -190,14 +192,19 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
     let done: Vec<u32> = drilled.iter().flat_map(|holes| holes.faces.iter().copied()).collect();
     let open: Vec<u32> = workable(&looks).map(|face| face.face).filter(|face| !done.contains(face)).collect();
     let are_all = done.is_empty() && covered(&looks).next().is_none();
-    match roughing(&body, allowances, &drilled, Some(open).filter(|open| !are_all && open.len() <= operations::NAMES)) {
-        Ok(work) => works.push(work),
+    let faces = Some(open).filter(|open| !are_all && open.len() <= operations::NAMES);
+    let roughings = roughing(&body, allowances, &drilled, faces.as_deref()).unwrap_or_else(|why| {
+        reasons.push(why);
+        Vec::new()
+    });
+    let Milling { rougher, between, milled } = milling(&body, &looks, &done, (allowances, &drilled), &roughings);
+    works.extend(rougher);
+    reasons.extend(milled.reasons);
+    works.extend(drilled.into_iter().map(|holes| holes.work));
+    match between {
+        Ok(between) => works.extend(between),
         Err(why) => reasons.push(why),
     }
-    let rougher = works.first().map(|work| work.cutter);
-    works.extend(drilled.into_iter().map(|holes| holes.work));
-    let milled = operations::milling(&body, &looks, &done, rougher.as_ref());
-    reasons.extend(milled.reasons);
     works.extend(milled.works);
     let named = |face: &FaceLook| face.looks_down && works.iter().any(|work| work.names(face.face));
     Choice {
@@ -210,6 +217,42 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
         operations: works,
         bounds: bounds(&turned.mesh),
     }
+}
+
+/// How a solid is milled.
+struct Milling {
+    rougher: Option<Work>,
+    /// What comes between roughing and finishing, or why finishing cuts deep without.
+    between: Result<Vec<Work>, String>,
+    /// The finishing.
+    milled: Milled,
+}
+
+/// With the first of some roughings after which no finishing tool cuts deeper at once than it is wide, without rows with balls over
+/// level floors first, else with the first of all; `done` are the faces that are drilled.
+fn milling(
+    body: &Body<'_>,
+    looks: &Hollows,
+    done: &[u32],
+    (allowances, drilled): (Allowances, &[Drilled]),
+    roughings: &[Work],
+) -> Milling {
+    let after = |rougher: Option<&Work>, on_floors: bool| {
+        let milled = operations::milling(body, looks, done, rougher.map(|work| &work.cutter));
+        let between = preparing(body, allowances, drilled, (rougher, &milled.works), on_floors);
+        Milling { rougher: rougher.cloned(), between, milled }
+    };
+    let mut first = None;
+    for on_floors in [false, true] {
+        for rougher in roughings {
+            let milling = after(Some(rougher), on_floors);
+            if milling.between.is_ok() {
+                return milling;
+            }
+            first = first.or(Some(milling));
+        }
+    }
+    first.unwrap_or_else(|| after(None, true))
 }
 
 /// +Z, unless much is hidden from there and another side hides less than half of that.

@@ -79,7 +79,7 @@ fn milling(part: &StarterPart<'_>, choice: &mut Choice, tolerances: [f64; 2]) ->
 
 /// What prepares for finishing: without it the rest is a job as well.
 fn is_before_finishing(work: &Work) -> bool {
-    matches!(work.serves, Serves::Stock | Serves::Holes)
+    matches!(work.serves, Serves::Stock | Serves::Holes) || work.leave > 0.0
 }
 
 /// What the table states for an operation of a job.

@@ -173,7 +173,7 @@ pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32], rougher: Option<&
     milled
 }
 
-/// The same with a flat tool, before the ball, for the level floors and upright walls that the ball leaves, and the share of the
+/// The same with a flat tool, too, for the level floors and upright walls that the ball leaves, and the share of the
 /// ball's own faces to which it does not get; none where a flat tool is not worth it, or rows serve the whole part.
 fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &Cutter) -> Option<(Milled, f64)> {
     if milled.works.iter().any(|work| work.faces.is_none()) {
@@ -208,17 +208,15 @@ fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &C
     let angle_deg = rows_along(mesh);
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = of_flat.into_iter().partition(|face| is_wall(face));
     let cutter = ("flat-cutter", flat);
-    let mut works = Vec::new();
+    // levels come first: they take what roughing leaves in corners bit by bit, rows would take it at once
     if !walls.is_empty() {
         let passes = [levels_apart(mesh, &walls, flat), angle_deg];
-        works.push(work("flat-walls", Serves::Walls, cutter, numbers(&walls), (passes, FLAT_WALLS)));
+        both.works.insert(0, work("flat-walls", Serves::Walls, cutter, numbers(&walls), (passes, FLAT_WALLS)));
     }
     if !floors.is_empty() {
         let passes = [rows_apart(&floors, flat), angle_deg];
-        works.push(work("flat-floors", Serves::Floors, cutter, numbers(&floors), (passes, FLAT_FLOORS)));
+        both.works.push(work("flat-floors", Serves::Floors, cutter, numbers(&floors), (passes, FLAT_FLOORS)));
     }
-    works.append(&mut both.works);
-    both.works = works;
     both.reasons.push(format!(
         "a flat tool of {} mm finishes the upright walls and level floors that the ball does not get to",
         flat.diameter

@@ -1,5 +1,6 @@
 //! The pocket as areas: what the tool's centre may reach, and what is to be cleared.
 
+use rayon::prelude::*;
 use styluscam_geometry::PlanePiece;
 
 use super::cut::without_slivers;
@@ -18,6 +19,8 @@ const GAP: f64 = 3e-3;
 const RIM: f64 = 2e-4;
 /// Chords of an earlier tool's path whose sweep is found at once.
 const TOGETHER: usize = 48;
+/// Areas of which the union is found at once.
+const GROUP: usize = 4;
 /// How far the tool's centre may go beyond an open edge, in tool radii: so far that it is free of the material there.
 const BEYOND: f64 = 2.5;
 /// How far discs may reach there, which only say where the tool is permitted to cut: the largest fits, with what it keeps from the material.
@@ -87,9 +90,10 @@ impl Ground {
             let chords: Vec<Vec<Point>> = stock.iter().map(|outline| chords(outline)).collect();
             goal = kernel.intersection(&goal, &kernel.even_odd(&chords));
         }
-        let swept: Vec<Vec<Point>> = pocket.cleared.iter().flat_map(|path| swept(&kernel, path)).collect();
-        if !swept.is_empty() {
-            let left = without_slivers(kernel.difference(&goal, &kernel.union_all(&swept)));
+        if !pocket.cleared.is_empty() {
+            let swept = pocket.cleared.par_iter().flat_map_iter(|path| swept(&kernel, path)).collect();
+            let swept = united(&kernel, swept);
+            let left = without_slivers(kernel.difference(&goal, &swept));
             goal = thick_parts(&kernel, &left, THIN * r, REACH * r);
         }
         if goal.is_empty() {
@@ -110,12 +114,21 @@ fn thick_parts(kernel: &Kernel, area: &Polygons, thin: f64, near: f64) -> Polygo
     kernel.intersection(area, &kernel.offset(&thick, 0.5 * thin + near, WALL))
 }
 
-/// What an earlier tool swept, in outlines.
-fn swept(kernel: &Kernel, path: &Cleared) -> Vec<Vec<Point>> {
+/// The union of areas that overlap those beside them in the list most, in groups of these: of all at once nearly every side crosses many.
+fn united(kernel: &Kernel, mut areas: Vec<Polygons>) -> Polygons {
+    while areas.len() > 1 {
+        let contours = |group: &[Polygons]| group.iter().flat_map(|area| area.contours.iter().cloned()).collect::<Vec<_>>();
+        areas = areas.par_chunks(GROUP).map(|group| kernel.union_all(&contours(group))).collect();
+    }
+    areas.pop().unwrap_or_default()
+}
+
+/// What an earlier tool swept, in areas that follow each other.
+fn swept(kernel: &Kernel, path: &Cleared) -> Vec<Polygons> {
     let chords = path_chords(&path.points);
     let starts = (0..chords.len().saturating_sub(1)).step_by(TOGETHER);
     let parts = starts.filter_map(|from| chords.get(from..chords.len().min(from + TOGETHER + 1)));
-    parts.flat_map(|part| kernel.sweep(part, path.radius, WALL).contours).collect()
+    parts.map(|part| kernel.sweep(part, path.radius, WALL)).collect()
 }
 
 /// The pocket without its islands.
