@@ -168,28 +168,35 @@ impl<'a> StockNodes<'a> {
     pub fn beside(&self, faces: &[u32], distance: f64) -> Vec<bool> {
         let [columns, rows] = self.counts;
         let mut beside = vec![false; columns * rows];
-        let reach = (distance / self.apart).ceil() as isize;
-        let is_upright = |t: &usize| {
-            self.mesh.normal(*t).z.abs() < UPRIGHT && self.mesh.faces().get(*t).is_some_and(|f| faces.contains(f))
-        };
-        for triangle in (0..self.mesh.triangles().len()).filter(is_upright) {
-            let [a, b, c] = self.mesh.corners(triangle);
-            for [from, to] in [[a, b], [b, c], [c, a]] {
-                let count = ((to - from).xy().norm() / self.apart).ceil().max(1.0) as usize;
-                for i in 0..=count {
-                    let p = from + (to - from) * (i as f64 / count as f64);
-                    let [column, row] = [p.x - self.corner[0], p.y - self.corner[1]].map(|x| (x / self.apart) as isize);
-                    for (r, c) in (-reach..=reach).flat_map(|r| (-reach..=reach).map(move |c| (r, c))) {
-                        let is_in =
-                            (0..rows as isize).contains(&(row + r)) && (0..columns as isize).contains(&(column + c));
-                        if is_in && r * r + c * c <= reach * reach {
-                            beside[(row + r) as usize * columns + (column + c) as usize] = true;
-                        }
-                    }
+        let reach = (distance / self.apart).ceil();
+        for [x, y] in self.along_walls(faces) {
+            let [column, row] = [x - self.corner[0], y - self.corner[1]].map(|x| (x / self.apart).floor());
+            let range = |middle: f64, count: usize| {
+                let [low, high] = [middle - reach, middle + reach].map(|i| i.clamp(0.0, count as f64 - 1.0) as usize);
+                low..=high
+            };
+            for (r, c) in range(row, rows).flat_map(|r| range(column, columns).map(move |c| (r, c))) {
+                if libm::hypot(r as f64 - row, c as f64 - column) <= reach {
+                    beside[r * columns + c] = true;
                 }
             }
         }
         beside
+    }
+
+    /// Points along the sides of the upright triangles of some faces in plan, no farther apart than nodes are, mm.
+    fn along_walls<'f>(&'f self, faces: &'f [u32]) -> impl Iterator<Item = [f64; 2]> + 'f {
+        let is_named = |triangle: &usize| self.mesh.faces().get(*triangle).is_some_and(|face| faces.contains(face));
+        let is_upright = |triangle: &usize| self.mesh.normal(*triangle).z.abs() < UPRIGHT;
+        let upright = (0..self.mesh.triangles().len()).filter(is_upright).filter(is_named);
+        let sides = upright.flat_map(|triangle| {
+            let [a, b, c] = self.mesh.corners(triangle);
+            [[a, b], [b, c], [c, a]]
+        });
+        sides.flat_map(|[from, to]| {
+            let count = ((to - from).xy().norm() / self.apart).ceil().max(1.0);
+            (0..=count as usize).map(move |i| (from + (to - from) * (i as f64 / count)).xy().into())
+        })
     }
 
     /// The height that a tool's front leaves at each node, from its tips there and as far beyond the sides as it reaches, mm.
