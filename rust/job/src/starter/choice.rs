@@ -2,11 +2,12 @@
 
 use styluscam_geometry::{Bvh, Frame, Mesh};
 
+use super::allowances::Allowances;
 use super::drilling::{drilling, Drilled};
 use super::operations::{self, Milled};
 use super::part::StarterPart;
 use super::preparing::preparing;
-use super::roughing::{roughing, Allowances};
+use super::roughing::roughing;
 use super::sizes;
 use super::work::Work;
 use super::workable::{covered, workable};

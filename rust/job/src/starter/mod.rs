@@ -1,5 +1,6 @@
 //! A commented job for a part that has none yet: it runs as it is, states why it is so, and shows what can be changed.
 
+mod allowances;
 mod choice;
 mod drilling;
 mod feed_lines;

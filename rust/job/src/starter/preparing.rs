@@ -3,9 +3,10 @@
 
 use styluscam_geometry::Tool;
 
+use super::allowances::Allowances;
 use super::drilling::Drilled;
 use super::operations::NAMES;
-use super::roughing::{to_leave, Allowances, WIDEST};
+use super::roughing::{to_leave, WIDEST};
 use super::sizes::{self, measured, round, Cutter, Shape};
 use super::stock_nodes::{Front, Standing, StockNodes};
 use super::work::Work;

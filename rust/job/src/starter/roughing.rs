@@ -1,7 +1,6 @@
 //! Roughing of a starter job: the flat tool that clears the stock over the part, and how deep it goes at a time.
 
-use styluscam_geometry::Mesh;
-
+use super::allowances::Allowances;
 use super::drilling::Drilled;
 use super::sizes::{self, round, Cutter, Shape};
 use super::stock_nodes::StockNodes;
@@ -9,11 +8,6 @@ use super::work::Work;
 use crate::body::Body;
 use crate::operations::{Serves, StarterPasses};
 
-/// By how much the stock is larger than the part's box, as a share of the part's largest size, and the limits of that, mm: what a saw
-/// leaves, and half of it on top.
-const ALLOWANCE: f64 = 0.02;
-const ALLOWANCES: [f64; 2] = [0.2, 2.0];
-const ON_TOP: f64 = 0.5;
 /// Nodes along the longer side of the stock in plan at which it is looked at how deep a tool gets.
 const NODES: f64 = 48.0;
 /// The widest tool is taken that clears this share of what any of them clears.
@@ -39,25 +33,6 @@ const LEVELS: f64 = 20.0;
 const LEFT: f64 = 0.03;
 const LEAST_LEFT: f64 = 0.02;
 const MOST_LEFT: f64 = 0.3;
-
-/// By how much the stock is larger than the part's box.
-#[derive(Clone, Copy, Debug)]
-pub struct Allowances {
-    /// On each of the four sides, mm.
-    pub sides: f64,
-    /// On top, mm.
-    pub top: f64,
-}
-
-impl Allowances {
-    /// What a sawn block has.
-    pub fn of(mesh: &Mesh) -> Self {
-        let (low, high) = mesh.bounds();
-        let [least, most] = ALLOWANCES;
-        let sides = round((ALLOWANCE * (high - low).max()).clamp(least, most));
-        Self { sides, top: ON_TOP * sides }
-    }
-}
 
 /// A tool's roughing.
 struct Cleared {

@@ -4,8 +4,8 @@ use styluscam_geometry::{Mesh, Tool};
 use styluscam_toolpath::offset::{Envelope, Index};
 use styluscam_toolpath::Surface;
 
+use super::allowances::Allowances;
 use super::drilling::Drilled;
-use super::roughing::Allowances;
 
 /// The vertical part of the normal of upright triangles.
 const UPRIGHT: f64 = 0.02;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use super::allowances::Allowances;
 use super::choice::Choice;
 use super::feed_lines::StarterFeeds;
 use super::part::{StarterFace, StarterPart};
-use super::roughing::Allowances;
 use super::sizes::round;
 use super::text::{number, quoted, wrapped};
 use super::work::Work;
