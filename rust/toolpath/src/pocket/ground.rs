@@ -117,7 +117,8 @@ fn thick_parts(kernel: &Kernel, area: &Polygons, thin: f64, near: f64) -> Polygo
 /// The union of areas that overlap those beside them in the list most, in groups of these: of all at once nearly every side crosses many.
 fn united(kernel: &Kernel, mut areas: Vec<Polygons>) -> Polygons {
     while areas.len() > 1 {
-        let contours = |group: &[Polygons]| group.iter().flat_map(|area| area.contours.iter().cloned()).collect::<Vec<_>>();
+        let contours =
+            |group: &[Polygons]| group.iter().flat_map(|area| area.contours.iter().cloned()).collect::<Vec<_>>();
         areas = areas.par_chunks(GROUP).map(|group| kernel.union_all(&contours(group))).collect();
     }
     areas.pop().unwrap_or_default()
