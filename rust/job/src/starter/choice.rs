@@ -3,10 +3,10 @@
 use styluscam_geometry::{Bvh, Frame, Mesh};
 
 use super::allowances::Allowances;
-use super::drilling::{drilling, Drilled};
+use super::drilling::drilling;
 use super::operations::{self, Milled};
 use super::part::StarterPart;
-use super::preparing::preparing;
+use super::preparing::{Cuts, Part};
 use super::roughing::roughing;
 use super::sizes;
 use super::work::Work;
@@ -198,7 +198,8 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
         reasons.push(why);
         Vec::new()
     });
-    let Milling { rougher, between, milled } = milling(&body, &looks, &done, (allowances, &drilled), &roughings);
+    let part = Part::new(&body, allowances, &drilled);
+    let (Milling { rougher, milled, .. }, between) = milling((&body, &looks, &done), &part, &roughings);
     works.extend(rougher);
     reasons.extend(milled.reasons);
     works.extend(drilled.into_iter().map(|holes| holes.work));
@@ -223,37 +224,45 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
 /// How a solid is milled.
 struct Milling {
     rougher: Option<Work>,
-    /// What comes between roughing and finishing, or why finishing cuts deep without.
-    between: Result<Vec<Work>, String>,
     /// The finishing.
     milled: Milled,
+    cuts: Cuts,
 }
 
 /// With the first of some roughings after which no finishing tool cuts deeper at once than it is wide, without rows with balls over
-/// level floors first, else with the first of all; `done` are the faces that are drilled.
+/// level floors first, else with the first of all; and what comes between roughing and finishing, or why finishing cuts deep without.
+/// `done` are the faces that are drilled.
 fn milling(
-    body: &Body<'_>,
-    looks: &Hollows,
-    done: &[u32],
-    (allowances, drilled): (Allowances, &[Drilled]),
+    (body, looks, done): (&Body<'_>, &Hollows, &[u32]),
+    part: &Part<'_>,
     roughings: &[Work],
-) -> Milling {
-    let after = |rougher: Option<&Work>, on_floors: bool| {
+) -> (Milling, Result<Vec<Work>, String>) {
+    let after = |rougher: Option<&Work>| {
         let milled = operations::milling(body, looks, done, rougher.map(|work| &work.cutter));
-        let between = preparing(body, allowances, drilled, (rougher, &milled.works), on_floors);
-        Milling { rougher: rougher.cloned(), between, milled }
+        let cuts = part.cuts(rougher, &milled.works);
+        Milling { rougher: rougher.cloned(), milled, cuts }
     };
-    let mut first = None;
-    for on_floors in [false, true] {
-        for rougher in roughings {
-            let milling = after(Some(rougher), on_floors);
-            if milling.between.is_ok() {
-                return milling;
-            }
-            first = first.or(Some(milling));
+    let between = |milling: &Milling, on_floors: bool| {
+        part.between(&milling.cuts, (milling.rougher.as_ref(), &milling.milled.works), on_floors)
+    };
+    let mut tried = Vec::new();
+    for rougher in roughings {
+        let milling = after(Some(rougher));
+        match between(&milling, false) {
+            Ok(works) => return (milling, Ok(works)),
+            Err(why) => tried.push((milling, why)),
         }
     }
-    first.unwrap_or_else(|| after(None, true))
+    let on_floors = tried.iter().enumerate().find_map(|(i, (milling, _))| Some((i, between(milling, true).ok()?)));
+    let (number, works) = on_floors.map_or((0, None), |(number, works)| (number, Some(works)));
+    match tried.into_iter().nth(number) {
+        Some((milling, why)) => (milling, works.ok_or(why)),
+        None => {
+            let milling = after(None);
+            let between = between(&milling, true);
+            (milling, between)
+        }
+    }
 }
 
 /// +Z, unless much is hidden from there and another side hides less than half of that.

@@ -121,7 +121,7 @@ fn cleared(nodes: &StockNodes<'_>, diameter: f64) -> Option<Cleared> {
     let leave = to_leave(diameter);
     let tool = cutter.made()?;
     let front = nodes.front(&tool, 0.0);
-    let tips = nodes.tips(&tool, (leave, front.reach()));
+    let tips = nodes.tips(&nodes.envelope(&tool, leave), front.reach());
     let depth = nodes.top - tips.iter().copied().fold(nodes.top, f64::min);
     let volume = nodes.volume(nodes.swept(&tips, &front));
     (depth > leave).then_some(Cleared { cutter, volume, leave, depth })

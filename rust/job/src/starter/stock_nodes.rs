@@ -6,6 +6,7 @@ use styluscam_toolpath::Surface;
 
 use super::allowances::Allowances;
 use super::drilling::Drilled;
+use crate::level_edges::sides;
 
 /// The vertical part of the normal of upright triangles.
 const UPRIGHT: f64 = 0.02;
@@ -121,10 +122,14 @@ impl<'a> StockNodes<'a> {
         Front { reach, heights: around.filter_map(height).collect() }
     }
 
+    /// The positions of a tool on the part, which leaves so much, mm.
+    pub fn envelope<'e>(&'e self, tool: &'e Tool, leave: f64) -> Envelope<'e> {
+        Envelope::new(self.mesh, &self.index, tool, None, leave)
+    }
+
     /// How deep a tool's tip gets at each node and at some beyond the stock's sides, mm; in holes that are drilled it stays above.
-    pub fn tips(&self, tool: &Tool, (leave, beyond): (f64, usize)) -> Vec<f64> {
-        let envelope = Envelope::new(self.mesh, &self.index, tool, None, leave);
-        let surface = Surface::whole(&envelope);
+    pub fn tips(&self, envelope: &Envelope<'_>, beyond: usize) -> Vec<f64> {
+        let surface = Surface::whole(envelope);
         let mut hint = None;
         let mut tip = |[x, y]: [f64; 2]| surface.at(x, y, &mut hint).map_or(self.foot, |at| at.tip.z.max(self.foot));
         let is_drilled = |at: [f64; 2]| self.holes.iter().any(|holes| holes.holds(at));
@@ -132,9 +137,8 @@ impl<'a> StockNodes<'a> {
     }
 
     /// Where a tool stands on the part at each node; nowhere beside it, and in holes that are drilled.
-    pub fn standing(&self, tool: &Tool, leave: f64) -> Vec<Option<Standing>> {
-        let envelope = Envelope::new(self.mesh, &self.index, tool, None, leave);
-        let surface = Surface::whole(&envelope);
+    pub fn standing(&self, envelope: &Envelope<'_>) -> Vec<Option<Standing>> {
+        let surface = Surface::whole(envelope);
         let mut hint = None;
         let mut standing = |[x, y]: [f64; 2]| {
             let at = surface.at(x, y, &mut hint)?;
@@ -189,11 +193,7 @@ impl<'a> StockNodes<'a> {
         let is_named = |triangle: &usize| self.mesh.faces().get(*triangle).is_some_and(|face| faces.contains(face));
         let is_upright = |triangle: &usize| self.mesh.normal(*triangle).z.abs() < UPRIGHT;
         let upright = (0..self.mesh.triangles().len()).filter(is_upright).filter(is_named);
-        let sides = upright.flat_map(|triangle| {
-            let [a, b, c] = self.mesh.corners(triangle);
-            [[a, b], [b, c], [c, a]]
-        });
-        sides.flat_map(|[from, to]| {
+        upright.flat_map(|triangle| sides(self.mesh, triangle)).flat_map(|[from, to]| {
             let count = ((to - from).xy().norm() / self.apart).ceil().max(1.0);
             (0..=count as usize).map(move |i| (from + (to - from) * (i as f64 / count)).xy().into())
         })

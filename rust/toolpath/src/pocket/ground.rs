@@ -90,10 +90,9 @@ impl Ground {
             let chords: Vec<Vec<Point>> = stock.iter().map(|outline| chords(outline)).collect();
             goal = kernel.intersection(&goal, &kernel.even_odd(&chords));
         }
-        if !pocket.cleared.is_empty() {
-            let swept = pocket.cleared.par_iter().flat_map_iter(|path| swept(&kernel, path)).collect();
-            let swept = united(&kernel, swept);
-            let left = without_slivers(kernel.difference(&goal, &swept));
+        let swept: Vec<Polygons> = pocket.cleared.par_iter().flat_map_iter(|path| swept(&kernel, path)).collect();
+        if !swept.is_empty() {
+            let left = without_slivers(kernel.difference(&goal, &united(&kernel, swept)));
             goal = thick_parts(&kernel, &left, THIN * r, REACH * r);
         }
         if goal.is_empty() {
