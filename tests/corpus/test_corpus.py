@@ -16,7 +16,18 @@ PARTS = {part["name"]: part for part in json.loads((SLICE / "parts.json").read_t
 OPTIONS = argparse.Namespace(limit=60.0, patience=3.0, keep=None, variant=[], base=True, all=False)
 
 
-LONG = {"blend-02", "channel-01", "cup-02", "gearbox-00.as-made.ply-binary-mm", "hinge-02", "pins-03", "spline-05"}
+LONG = {
+    "blend-02",
+    "channel-01",
+    "cup-02",
+    "fins-00",
+    "gearbox-00.as-made.ply-binary-mm",
+    "hinge-02",
+    "pins-03",
+    "spline-05",
+    "step-02",
+    "terrain-00",
+}
 """Parts whose roughing takes the better part of a minute to plan and to verify."""
 
 

@@ -81,8 +81,14 @@ def subject_of(name: str, part: str) -> tuple[sc.Job, Tool, Solid]:
     return job, Tool.of(profile, *(sheet or ())), Solid(vertices[triangles])
 
 
+LONG = {"clothoid over a sheet"}
+"""The brute force takes longest with it; clothoids and sheets are each among the others."""
+
+
 @pytest.mark.parametrize("part", SEGMENTS)
-@pytest.mark.parametrize("name", TOOLS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] if name in LONG else []) for name in TOOLS]
+)
 def test_gouge_and_excess_are_those_of_the_brute_force(name: str, part: str) -> None:
     job, tool, solid = subject_of(name, part)
     for low, high in SEGMENTS[part]:

@@ -46,7 +46,7 @@ def test_a_groove_under_a_long_line_is_seen(length: float) -> None:
     assert sc.verify(text, job(groove, 1.0)).excess_max > 1.0
 
 
-@pytest.mark.parametrize("radius", [300.0, 3000.0])
+@pytest.mark.parametrize("radius", [300.0, pytest.param(3000.0, marks=pytest.mark.long)])
 def test_an_arc_is_as_deep_as_it_is_however_large(radius: float) -> None:
     """A ball of 20 mm around a post: the corners of the polygon are met, the depth is that of the circle."""
     depth, count = 0.0009, 3000
