@@ -14,10 +14,7 @@ import pytest
 
 from .conftest import CHECKOUT
 from .patching import TARGET
-from .test_docs import change_of
-
-PAGE = "docs/howto/add-an-operation.md"
-PROCESS = "docs/howto/add-a-process.md"
+from .test_docs import NEW_OPERATION, NEW_PROCESS, change_of
 
 LOOK = r"""
 import json, sys
@@ -69,9 +66,9 @@ tolerance = 0.01
 @pytest.fixture(scope="module")
 def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The package with an engine that has the pages' kinds."""
-    change = change_of(PAGE)
+    change = change_of(NEW_OPERATION)
     assert sorted(change.files) == ["rust/job/src/operations/mod.rs", "rust/job/src/operations/rings.rs"]
-    process = change_of(PROCESS)
+    process = change_of(NEW_PROCESS)
     assert sorted(process.files) == ["rust/job/src/process/mod.rs", "rust/job/src/process/relay.rs"]
     change.files |= process.files
     change.name = "new-kind"  # the page's own test may run beside this one
