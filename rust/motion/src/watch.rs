@@ -1,5 +1,6 @@
 //! Progress and cancel: a flag and a figure that long work and the one who waits for it share.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
@@ -53,6 +54,12 @@ impl Watch {
         self.cancelled.load(Ordering::Relaxed)
     }
 
+    /// The numbers from 0 to `count`, `size` at a time: no more of them once somebody asked to stop.
+    pub fn batches(&self, count: usize, size: usize) -> impl Iterator<Item = Range<usize>> + '_ {
+        let starts = (0..count).step_by(size.max(1));
+        starts.map(move |start| start..count.min(start + size.max(1))).take_while(|_| !self.is_cancelled())
+    }
+
     /// Asks the work to stop; it does within a fraction of a second.
     pub fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
@@ -71,6 +78,17 @@ impl Watch {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn batches_cover_the_numbers_once_until_cancelled() {
+        let watch = Watch::default();
+        assert_eq!(watch.batches(7, 3).collect::<Vec<_>>(), [0..3, 3..6, 6..7]);
+        assert_eq!(watch.batches(0, 3).count(), 0);
+        let mut batches = watch.batches(7, 3);
+        assert_eq!(batches.next(), Some(0..3));
+        watch.cancel();
+        assert_eq!(batches.next(), None);
+    }
 
     #[test]
     fn the_share_is_of_the_phase_and_never_more_than_all() {

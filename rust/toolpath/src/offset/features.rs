@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use styluscam_geometry::Vector;
 use styluscam_motion::Watch;
 
-use super::index::Triangles;
+use super::index::{Triangles, BATCH};
 use super::normal;
 
 /// Bit i: the edge from corner i to the next one is this triangle's to try; bit 3 + i: corner i is.
@@ -29,15 +29,15 @@ const VALLEY: f64 = 1e-12;
 /// A facet stands upright when its normal rises by less: over its height it leans by less than counts as rounding.
 const UPRIGHT: f64 = 1e-13;
 
-/// Ownership and neighbours of all triangles; `firsts` marks for each which corners no triangle before it has. None
-/// when `watch` is cancelled.
+/// Ownership and neighbours of all triangles; `firsts` marks for each which corners no triangle before it has. Not
+/// all of them when `watch` is cancelled.
 pub fn of(triangles: &Triangles, firsts: &[u8], watch: &Watch) -> (Vec<Owned>, Vec<Neighbours>) {
-    let neighbours = neighbours(triangles);
-    if watch.is_cancelled() {
-        return (Vec::new(), neighbours);
+    let neighbours = neighbours(triangles, watch);
+    let mut owned = Vec::with_capacity(firsts.len());
+    for batch in watch.batches(firsts.len(), BATCH) {
+        let owned_of = |t| owned_edges(triangles, &neighbours, t) | (firsts[t] << 3);
+        owned.par_extend(batch.into_par_iter().map(owned_of));
     }
-    let owned =
-        firsts.par_iter().enumerate().map(|(t, first)| owned_edges(triangles, &neighbours, t) | (first << 3)).collect();
     (owned, neighbours)
 }
 
@@ -50,11 +50,11 @@ struct Side {
     side: u32,
 }
 
-fn neighbours(triangles: &Triangles) -> Vec<Neighbours> {
-    let (starts, mut sides) = sides_by_corner(triangles);
+fn neighbours(triangles: &Triangles, watch: &Watch) -> Vec<Neighbours> {
+    let (starts, mut sides) = sides_by_corner(triangles, watch);
     let mut out = vec![[NO_NEIGHBOUR; 3]; triangles.corners.len()];
-    for range in starts.windows(2) {
-        let fan = &mut sides[range[0] as usize..range[1] as usize];
+    for corner in watch.batches(triangles.points.len(), BATCH).flatten() {
+        let fan = &mut sides[starts[corner] as usize..starts[corner + 1] as usize];
         fan.sort_unstable_by_key(|s| s.to);
         for meeting in fan.chunk_by(|a, b| a.to == b.to) {
             if let [a, b] = meeting {
@@ -67,13 +67,15 @@ fn neighbours(triangles: &Triangles) -> Vec<Neighbours> {
 }
 
 /// All sides sorted by their lower corner, and where each corner's begin.
-fn sides_by_corner(triangles: &Triangles) -> (Vec<u32>, Vec<Side>) {
+fn sides_by_corner(triangles: &Triangles, watch: &Watch) -> (Vec<u32>, Vec<Side>) {
     let ends = |corners: &[u32; 3], i: usize| {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
         (a.min(b), a.max(b))
     };
     let mut starts = vec![0; triangles.points.len() + 1];
-    for corners in &triangles.corners {
+    let in_batches = || watch.batches(triangles.corners.len(), BATCH).flatten();
+    for t in in_batches() {
+        let corners = &triangles.corners[t];
         for i in 0..3 {
             starts[ends(corners, i).0 as usize + 1] += 1;
         }
@@ -83,7 +85,8 @@ fn sides_by_corner(triangles: &Triangles) -> (Vec<u32>, Vec<Side>) {
     }
     let mut next = starts.clone();
     let mut sides = vec![Side::default(); 3 * triangles.corners.len()];
-    for (t, corners) in triangles.corners.iter().enumerate() {
+    for t in in_batches() {
+        let corners = &triangles.corners[t];
         for i in 0..3 {
             let (from, to) = ends(corners, i);
             let slot = &mut next[from as usize];

@@ -12,6 +12,7 @@ use super::lines::STEEPEST;
 use super::pieces::Part;
 use super::triangles::Triangles;
 use super::width::WIDTH;
+use super::BATCH;
 
 /// Rounding in a bound, as a share of the lengths and slopes that it is computed from.
 const ROUNDING: f64 = 1e-6;
@@ -66,29 +67,34 @@ impl Pieces<'_> {
     }
 }
 
-/// Covers of each piece; none when `watch` is cancelled.
+/// Covers of each piece; fewer when `watch` is cancelled.
 pub fn of_pieces(pieces: &Pieces<'_>, watch: &Watch) -> Vec<Cover> {
-    if watch.is_cancelled() {
-        return Vec::new();
+    let count = pieces.of_pieces.len();
+    let mut covers = Vec::with_capacity(count);
+    for batch in watch.batches(count, BATCH) {
+        covers.par_extend(batch.into_par_iter().map(|piece| pieces.cover(piece)));
     }
-    (0..pieces.of_pieces.len()).into_par_iter().map(|piece| pieces.cover(piece)).collect()
+    covers
 }
 
-/// Covers of groups of eight covers; each group holds `size` pieces.
-pub fn of_groups(parts: &[Cover], size: usize, pieces: &Pieces<'_>) -> Vec<Cover> {
-    parts
-        .par_chunks(WIDTH)
-        .enumerate()
-        .map(|(group, parts)| {
-            let slope = parts.iter().fold([0.0; 2], |a, p| [a[0] + p.slope[0], a[1] + p.slope[1]]);
-            let weight = parts.iter().map(|p| p.weight).sum();
-            let cover = Cover::around(parts.iter().map(|p| (p.corner(0.0), p.corner(1.0))), slope, weight);
-            if size > FROM_PARTS {
-                return cover.over_parts(parts);
-            }
-            cover.under(pieces, group * size..((group + 1) * size).min(pieces.of_pieces.len()))
-        })
-        .collect()
+/// Covers of groups of eight covers; each group holds `size` pieces. Fewer when `watch` is cancelled.
+pub fn of_groups(parts: &[Cover], size: usize, pieces: &Pieces<'_>, watch: &Watch) -> Vec<Cover> {
+    let group = |number: usize| {
+        let parts = &parts[number * WIDTH..((number + 1) * WIDTH).min(parts.len())];
+        let slope = parts.iter().fold([0.0; 2], |a, p| [a[0] + p.slope[0], a[1] + p.slope[1]]);
+        let weight = parts.iter().map(|p| p.weight).sum();
+        let cover = Cover::around(parts.iter().map(|p| (p.corner(0.0), p.corner(1.0))), slope, weight);
+        if size > FROM_PARTS {
+            return cover.over_parts(parts);
+        }
+        cover.under(pieces, number * size..((number + 1) * size).min(pieces.of_pieces.len()))
+    };
+    let count = parts.len().div_ceil(WIDTH);
+    let mut covers = Vec::with_capacity(count);
+    for batch in watch.batches(count, BATCH / size.min(FROM_PARTS)) {
+        covers.par_extend(batch.into_par_iter().map(group));
+    }
+    covers
 }
 
 /// Eight covers side by side.

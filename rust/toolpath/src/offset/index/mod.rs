@@ -29,6 +29,9 @@ const WALL: f64 = 1e-3;
 /// What rounding makes of a position, as a share of the coordinates.
 const ROUNDING: f64 = 1e-13;
 
+/// Triangles between two looks at whether to stop: some milliseconds of work.
+pub(super) const BATCH: usize = 1 << 16;
+
 /// Stages of building that progress shows.
 const STAGES: usize = 3;
 
@@ -73,10 +76,10 @@ impl Index {
         let (low, high) = mesh.bounds();
         let centre = (low + high) * 0.5;
         let goes_on = || watch.advance(1).is_ok();
-        let pieces = pieces::of(mesh, (low, high));
+        let pieces = pieces::of(mesh, (low, high), watch);
         let order = if goes_on() { order::of(&pieces, centre, watch) } else { Vec::new() };
         let Owners { of_pieces, parts, numbers, positions } = Owners::of(pieces, &order, mesh.triangles().len());
-        let (triangles, firsts) = if goes_on() { renumbered(mesh, &numbers) } else { Default::default() };
+        let (triangles, firsts) = if goes_on() { renumbered(mesh, &numbers, watch) } else { Default::default() };
         let pieces = cover::Pieces { triangles: &triangles, of_pieces: &of_pieces, parts: &parts, centre };
         let (levels, (owned, neighbours)) =
             rayon::join(|| levels(&pieces, watch), || features::of(&triangles, &firsts, watch));
@@ -143,14 +146,15 @@ impl Index {
     }
 }
 
-/// The triangles in order with corners numbered as they come; for each triangle, which of its corners are new.
-fn renumbered(mesh: &Mesh, numbers: &[u32]) -> (Triangles, Vec<u8>) {
+/// The triangles in order with corners numbered as they come; for each triangle, which of its corners are new. Fewer of
+/// them when `watch` is cancelled.
+fn renumbered(mesh: &Mesh, numbers: &[u32], watch: &Watch) -> (Triangles, Vec<u8>) {
     const UNUSED: u32 = u32::MAX;
     let mut names = vec![UNUSED; mesh.vertices().len()];
     let mut triangles =
         Triangles { corners: Vec::with_capacity(numbers.len()), points: Vec::with_capacity(mesh.vertices().len()) };
     let mut firsts = Vec::with_capacity(numbers.len());
-    for number in numbers {
+    for number in watch.batches(numbers.len(), BATCH).flat_map(|batch| &numbers[batch]) {
         let (mut corners, mut first) = (mesh.triangles()[*number as usize], 0);
         for (i, corner) in corners.iter_mut().enumerate() {
             let name = &mut names[*corner as usize];
@@ -177,7 +181,7 @@ fn levels(pieces: &cover::Pieces<'_>, watch: &Watch) -> Vec<Vec<Lanes>> {
             return levels;
         }
         size *= WIDTH;
-        covers = cover::of_groups(&covers, size, pieces);
+        covers = cover::of_groups(&covers, size, pieces, watch);
     }
 }
 

@@ -8,6 +8,9 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
+use styluscam_motion::Watch;
+
+use super::BATCH;
 
 /// Empty area of a box worth a cut, as a multiple of the area that the mesh has for each triangle in plan.
 const WASTE: f64 = 8.0;
@@ -31,18 +34,22 @@ pub struct Part {
     pub high: Vector,
 }
 
-/// The pieces of all triangles: the first part of each stands where the triangle would.
-pub fn of(mesh: &Mesh, (low, high): (Vector, Vector)) -> Vec<Piece> {
+/// The pieces of all triangles: the first part of each stands where the triangle would. Fewer when `watch` is cancelled.
+pub fn of(mesh: &Mesh, (low, high): (Vector, Vector), watch: &Watch) -> Vec<Piece> {
     let count = mesh.triangles().len();
     let worth = WASTE * (high.x - low.x) * (high.y - low.y) / count as f64;
-    let mut pieces: Vec<Piece> = (0..count as u32).into_par_iter().map(|t| Piece::whole(mesh, t)).collect();
     let first = |triangle: usize| {
         let part = Part::whole(mesh.corners(triangle));
         Waste::of(mesh, triangle as u32, triangle, part, worth)
     };
-    let mut heap: BinaryHeap<Waste> = (0..count).into_par_iter().filter_map(first).collect::<Vec<_>>().into();
+    let (mut pieces, mut wastes) = (Vec::with_capacity(count), Vec::new());
+    for batch in watch.batches(count, BATCH) {
+        pieces.par_extend(batch.clone().into_par_iter().map(|t| Piece::whole(mesh, t as u32)));
+        wastes.par_extend(batch.into_par_iter().filter_map(first));
+    }
+    let mut heap = BinaryHeap::from(wastes);
     let most = count + (MORE * count as f64) as usize;
-    while pieces.len() < most {
+    while pieces.len() < most && !watch.is_cancelled() {
         let Some(Waste { position, triangle, part, .. }) = heap.pop() else { break };
         let halves = part.halves(mesh.corners(triangle as usize));
         let positions = [position, pieces.len()];
