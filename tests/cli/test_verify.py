@@ -169,7 +169,6 @@ def test_inch_for_mm_is_found(sound, cli):
     assert code == 1 and document["findings"]
 
 
-@pytest.mark.long  # a path far from the part takes the verifier a minute
 def test_mm_for_inch_is_found(sound, cli):
     text = sound.gcode.read_text()
     small = re.sub(r"([XYZ])(-?\d+\.?\d*)", lambda word: f"{word[1]}{float(word[2]) / 25.4:.4f}", text)

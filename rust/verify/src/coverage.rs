@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use rstar::{PointDistance, RTree, RTreeObject, SelectionFunction, AABB};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::Vector;
+use styluscam_geometry::{Mesh, Vector};
 use styluscam_motion::{Cancelled, Program, Watch};
 
 use crate::body::Body;
@@ -182,7 +182,7 @@ impl Face {
 /// All moves that are meant to touch, by tool.
 pub(crate) struct Sweeps {
     tools: Vec<(Body, RTree<Sweep>)>,
-    /// Length of all of them, mm.
+    /// Length of those that may touch the part, mm.
     length: f64,
     /// What may be left at a covered position, mm.
     enough: f64,
@@ -256,7 +256,9 @@ impl Sweeps {
             (body, tree)
         });
         let tools: Vec<(Body, RTree<Sweep>)> = tools.collect();
-        let length = tools.iter().flat_map(|(_, tree)| tree).map(|sweep| sweep.stroke.length()).sum();
+        let near =
+            tools.iter().flat_map(|(body, tree)| tree.locate_in_envelope_intersecting(around(subject.mesh, body)));
+        let length = near.map(|sweep| sweep.stroke.length()).sum();
         let used = tools.iter().zip(subject.tools).filter(|((_, tree), _)| tree.size() > 0);
         let smallest = used.map(|(_, tool)| tool.diameter()).fold(f64::INFINITY, f64::min);
         let enough = if smallest.is_finite() { COVERED * smallest } else { 0.0 };
@@ -319,6 +321,14 @@ impl Sweeps {
         *last = nearest.get();
         best.get()
     }
+}
+
+/// A box that holds every position at which a body touches a mesh.
+fn around(mesh: &Mesh, body: &Body) -> AABB<[f64; 3]> {
+    let (low, high) = mesh.bounds();
+    let radius = Vector::new(body.radius(), body.radius(), 0.0);
+    let [low, high] = [low - radius, high + radius];
+    AABB::from_corners([low.x, low.y, f64::NEG_INFINITY], high.into())
 }
 
 /// The search for the move that sweeps nearest to a point.

@@ -122,15 +122,15 @@ pub(crate) fn faults(
         let selected = expectation.triangles();
         let look =
             Look { subject, limits, expectation, passes, selected: &selected, body, rows: &rows, contacts: &contacts };
-        let left = look.left(&sweeps, watch)?;
+        let tabs = Tabs::of(program, segments, assignment, subject, operation);
+        let counts = |fault: &Fault| !Tabs::excuse(&tabs, fault.position);
+        let left = look.left(&sweeps, counts, watch)?;
         let on_passes = look.left_on_passes(&sweeps, watch)?;
         let at_ends = look.left_at_ends(&sweeps, watch)?;
-        let tabs = Tabs::of(program, segments, assignment, subject, operation);
         let ridges = Ridges { subject, operation, passes, body, sweeps: &sweeps, contacts: &contacts };
         let scallops = ridges.faults(watch)?;
-        let found =
-            left.into_iter().chain(on_passes).chain(at_ends).filter(|fault| !Tabs::excuse(&tabs, fault.position));
-        for fault in found.chain(look.gaps()).chain(scallops) {
+        let found = on_passes.into_iter().chain(at_ends).filter(counts);
+        for fault in left.into_iter().chain(found).chain(look.gaps()).chain(scallops) {
             let known = worst.entry((fault.index, fault.kind.finding)).or_insert(fault);
             if fault.weight > known.weight {
                 *known = fault;
@@ -145,6 +145,14 @@ fn may_be_of(passes: &OrderedPasses, expectation: &Expectation, segment: &Segmen
     let is_along = |set: &OrderedPasses| contact_lines::holds(&*set.scalar, segment);
     let mut others = expectation.sets().iter().filter(|set| !std::ptr::eq(*set, passes));
     is_along(passes) || !others.any(is_along)
+}
+
+/// A position where more is left than the distance between passes explains: a fault where a feature is there, and no passes.
+struct Excess {
+    fault: Fault,
+    spot: Spot,
+    /// To the next pass, mm.
+    step: Vector,
 }
 
 /// One operation, looked at.
@@ -201,8 +209,9 @@ impl Look<'_> {
         });
         let farthest = |beyond: &dyn Fn(f64) -> f64, steps: f64, step: f64| {
             let ends = touching.iter().map(|(value, spot)| (beyond(*value), spot));
-            let wide = ends.filter(|(gap, spot)| wide(*gap, steps, step) && self.holds_feature(spot));
-            wide.map(|(gap, _)| gap).max_by(f64::total_cmp)
+            let mut ends: Vec<(f64, &Spot)> = ends.filter(|(gap, _)| wide(*gap, steps, step)).collect();
+            ends.sort_by(|a, b| b.0.total_cmp(&a.0));
+            ends.into_iter().find(|(_, spot)| self.holds_feature(spot)).map(|(gap, _)| gap)
         };
         let [step_below, step_above] = [self.last_step(&passes), pitch.at(highest.value)];
         let below = farthest(&|value| lowest.value - value, rest_low, step_below);
@@ -245,10 +254,25 @@ impl Look<'_> {
         touching.map(|spot| (scalar.value(spot.tip.into()), spot)).collect()
     }
 
-    /// Positions where more is left than the distance between passes explains.
-    fn left(&self, sweeps: &Sweeps, watch: &Watch) -> Result<Vec<Fault>, Cancelled> {
+    /// Positions where more is left than the distance between passes explains: the worst beside each move, of those that count.
+    fn left(
+        &self,
+        sweeps: &Sweeps,
+        counts: impl Fn(&Fault) -> bool + Sync,
+        watch: &Watch,
+    ) -> Result<Vec<Fault>, Cancelled> {
         let probes = probes::spread(self.subject.mesh, self.selected, POINTS);
-        of_all(&probes, watch, |probe, last| self.left_at(probe, sweeps, last))
+        let mut found = of_all(&probes, watch, |probe, last| self.left_at(probe, sweeps, last))?;
+        found.sort_by(|a, b| a.fault.index.cmp(&b.fault.index).then(b.fault.weight.total_cmp(&a.fault.weight)));
+        let is_missing = |excess: &Excess| {
+            self.holds_feature(&excess.spot)
+                && !self.lies_between_passes(&excess.spot, excess.step, sweeps)
+                && counts(&excess.fault)
+        };
+        let stands = |excess: &&Excess| watch.is_cancelled() || is_missing(excess);
+        let worst = |beside: &[Excess]| beside.par_iter().find_first(stands).map(|excess| excess.fault);
+        let faults = found.chunk_by(|a, b| a.fault.index == b.fault.index).filter_map(worst).collect();
+        watch.advance(0).map(|()| faults)
     }
 
     /// Positions that the passes should touch, and do not.
@@ -337,7 +361,7 @@ impl Look<'_> {
     }
 
     /// What is left at a point, if it is more than the distance between passes explains, and the tool can get there.
-    fn left_at(&self, probe: &Probe, sweeps: &Sweeps, last: &mut Option<(usize, Sweep)>) -> Option<Fault> {
+    fn left_at(&self, probe: &Probe, sweeps: &Sweeps, last: &mut Option<(usize, Sweep)>) -> Option<Excess> {
         let spot = self.spot(probe)?;
         let step = self.next(&spot).filter(|step| 0.5 * step.norm() < self.body.radius())?;
         let positions = |share: f64| [spot.position + share * step, spot.position - share * step];
@@ -357,8 +381,8 @@ impl Look<'_> {
             _ => amidst,
         };
         let allowed = explained + rough;
-        let is_missing = left > allowed && self.holds_feature(&spot) && !self.lies_between_passes(&spot, step, sweeps);
-        is_missing.then(|| self.missing_pass(&spot, last.as_ref(), left, allowed)).flatten()
+        let fault = self.missing_pass(&spot, last.as_ref(), left, allowed).filter(|_| left > allowed)?;
+        Some(Excess { fault, spot, step })
     }
 
     /// Whether the tool can touch around a spot as far as a feature is that counts.
@@ -530,20 +554,20 @@ impl Look<'_> {
     }
 }
 
-/// Faults at points, in parallel; points near by follow each other, and the last move found is passed to the next point.
-fn of_all(
+/// What is found at points, in parallel; points near by follow each other, and the last move found is passed to the next point.
+fn of_all<T: Send>(
     probes: &[Probe],
     watch: &Watch,
-    fault: impl Fn(&Probe, &mut Option<(usize, Sweep)>) -> Option<Fault> + Sync,
-) -> Result<Vec<Fault>, Cancelled> {
+    found_at: impl Fn(&Probe, &mut Option<(usize, Sweep)>) -> Option<T> + Sync,
+) -> Result<Vec<T>, Cancelled> {
     watch.begin("missing passes", probes.len().div_ceil(CHUNK));
-    let found: Result<Vec<Vec<Fault>>, Cancelled> = probes
+    let found: Result<Vec<Vec<T>>, Cancelled> = probes
         .par_chunks(CHUNK)
         .map(|chunk| {
             watch.advance(1)?;
             let mut last = None;
-            Ok(chunk.iter().filter_map(|probe| fault(probe, &mut last)).collect())
+            Ok(chunk.iter().filter_map(|probe| found_at(probe, &mut last)).collect())
         })
         .collect();
-    Ok(found?.concat())
+    Ok(found?.into_iter().flatten().collect())
 }
