@@ -74,10 +74,14 @@ def of(job, name):
 
 
 def coarser(job):
-    """The job with fewer levels, rows and triangles: that it runs is asked here, not what it makes."""
+    """The job with fewer levels, rows and triangles, as far as steps may go: that it runs is asked here, not what it makes."""
     text = job.read_text()
     for key, times in (("height", 5.0), ("stepover", 4.0), ("smallest_feature", 10.0)):
-        text = re.sub(rf"{key} = ([\d.e-]+)", lambda found, k=key, t=times: f"{k} = {t * float(found[1]):.6g}", text)
+
+        def larger(found, key=key, times=times):
+            return f"{key} = {min(times * float(found[1]), 100.0):.6g}"
+
+        text = re.sub(rf"{key} = ([\d.e-]+)", larger, text)
     job.write_text(text)
 
 

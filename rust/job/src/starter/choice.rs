@@ -6,7 +6,7 @@ use super::allowances::Allowances;
 use super::drilling::drilling;
 use super::operations::{self, Milled};
 use super::part::StarterPart;
-use super::preparing::{Cuts, Part};
+use super::preparing::{Between, Cuts, Part};
 use super::roughing::roughing;
 use super::sizes;
 use super::work::Work;
@@ -204,10 +204,12 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
     reasons.extend(milled.reasons);
     works.extend(drilled.into_iter().map(|holes| holes.work));
     match between {
-        Ok(between) => works.extend(between),
-        Err(why) => reasons.push(why),
+        Ok(between) => works.extend(between.before(milled.works)),
+        Err(why) => {
+            reasons.push(why);
+            works.extend(milled.works);
+        }
     }
-    works.extend(milled.works);
     let named = |face: &FaceLook| face.looks_down && works.iter().any(|work| work.names(face.face));
     Choice {
         reasons,
@@ -236,7 +238,7 @@ fn milling(
     (body, looks, done): (&Body<'_>, &Hollows, &[u32]),
     part: &Part<'_>,
     roughings: &[Work],
-) -> (Milling, Result<Vec<Work>, String>) {
+) -> (Milling, Result<Between, String>) {
     let after = |rougher: Option<&Work>| {
         let milled = operations::milling(body, looks, done, rougher.map(|work| &work.cutter));
         let cuts = part.cuts(rougher, &milled.works);

@@ -138,7 +138,7 @@ pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32], rougher: Option<&
     let mut left = by_face.share_left(&milled);
     let (mut diameter, mut in_vain) = (fitting.diameter, 0);
     while left > SURE * allowed && in_vain < TRIED {
-        let Some(smaller) = sizes::next_smaller(diameter, body.mesh()) else { break };
+        let Some(smaller) = sizes::next_smaller(&Cutter { diameter, ..fitting }, body.mesh()) else { break };
         diameter = smaller;
         let words = format!("the tool, {diameter} mm wide: wider tools reach less of the faces");
         let smaller = worked(&by_face, &seen, Cutter { diameter, ..fitting }, words);

@@ -7,7 +7,7 @@ use styluscam_toolpath::forming::Floors;
 use super::allowances::Allowances;
 use super::drilling::Drilled;
 use super::operations::NAMES;
-use super::roughing::{to_leave, WIDEST};
+use super::roughing::{thinnest, to_leave, WIDEST};
 use super::sizes::{self, measured, round, Cutter, Shape};
 use super::stock_nodes::{Front, Standing, StockNodes};
 use super::work::Work;
@@ -16,8 +16,9 @@ use crate::operations::{Serves, StarterPasses};
 
 /// Nodes along the longer side of the stock in plan: they are nearer than the narrowest tool's radius, a hundredth of the part's size.
 const NODES: f64 = 160.0;
-/// Tools cut no deeper through the stock at once than this, in diameters, but for so many nodes.
+/// Tools cut no deeper through the stock at once than this, in diameters,
 const DEEPEST: f64 = 1.0;
+/// but for so many nodes in finishing, which is there anyhow: so few are no reason for more operations.
 const FEW: usize = 2;
 /// Stock counts up to so far from the tool's axis, as a share of its radius, as for the verifier: what is farther off is a skin.
 const MIDDLE: f64 = 0.5;
@@ -31,15 +32,49 @@ const STEPS: usize = 3;
 /// Heights of the stock at the nodes, mm.
 type Heights = Vec<f64>;
 
+/// The stock that some operations leave.
+#[derive(Clone)]
+struct Left {
+    /// About.
+    about: Heights,
+    /// At most: in narrow spaces, what nodes do not resolve stands as well.
+    most: Heights,
+}
+
+impl Left {
+    /// What is left where it was higher than some heights.
+    fn lowered(&self, to: &Heights) -> Self {
+        Self { about: lower(&self.about, to), most: lower(&self.most, to) }
+    }
+}
+
 /// A part whose stock is looked at.
 pub struct Part<'a> {
     nodes: StockNodes<'a>,
 }
 
+/// Operations between roughing and finishing.
+pub struct Between {
+    pub works: Vec<Work>,
+    /// Whether they come after the levels along upright walls, since the balls would go deep down beside those.
+    pub are_after_walls: bool,
+}
+
+impl Between {
+    const NOTHING: Self = Self { works: Vec::new(), are_after_walls: false };
+
+    /// With the finishing, in order.
+    pub fn before(self, finishing: Vec<Work>) -> impl Iterator<Item = Work> {
+        let is_before = |work: &Work| self.are_after_walls && work.serves == Serves::Walls;
+        let (walls, rest): (Vec<Work>, Vec<Work>) = finishing.into_iter().partition(is_before);
+        walls.into_iter().chain(self.works).chain(rest)
+    }
+}
+
 /// How a part is cut.
 pub struct Cuts {
     /// What the roughing leaves.
-    roughed: Heights,
+    roughed: Left,
     /// What levels along upright walls leave, bit by bit, before rows come.
     walls: Heights,
     finishing: Vec<Passes>,
@@ -78,9 +113,11 @@ impl<'a> Part<'a> {
         cuts: &Cuts,
         (rougher, finishing): (Option<&Work>, &[Work]),
         on_floors: bool,
-    ) -> Result<Vec<Work>, String> {
-        let deep = cuts.too_deep(&cuts.roughed, self);
-        let Some((worst, depth)) = deep.iter().max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return Ok(Vec::new()) };
+    ) -> Result<Between, String> {
+        let deep = cuts.too_deep(&cuts.roughed.about, self);
+        let Some((worst, depth)) = deep.iter().max_by(|(_, a), (_, b)| a.total_cmp(b)) else {
+            return Ok(Between::NOTHING);
+        };
         let words = format!(
             "the finishing tool of {} mm would cut up to {:.1} mm deep at once through what stands then, more than it is wide",
             worst.cutter.diameter,
@@ -88,29 +125,39 @@ impl<'a> Part<'a> {
         );
         let is_on_floors = deep.iter().any(|(passes, _)| passes.cutter.shape == Shape::Flat);
         let steps = if is_on_floors && !on_floors { Vec::new() } else { self.steps(cuts, rougher) };
-        let Some(chosen) = chosen(&steps, cuts, self) else {
+        let works = |chosen: Vec<&Step>| -> Vec<Work> {
+            chosen.iter().enumerate().map(|(number, step)| step.work(number, finishing, &words)).collect()
+        };
+        if let Some(chosen) = chosen(&steps, cuts, self, &cuts.roughed) {
+            return Ok(Between { works: works(chosen), are_after_walls: false });
+        }
+        // levels along walls are finished first where they may cut all that is there
+        let mut before_rows = deep.iter().filter(|(passes, _)| !passes.is_after_walls);
+        let after_walls = before_rows.next().is_none().then(|| cuts.roughed.lowered(&cuts.walls));
+        let Some(chosen) = after_walls.and_then(|left| chosen(&steps, cuts, self, &left)) else {
             return Err(format!("{words}, and no wider ball gets to enough of it: take that with another tool first"));
         };
-        Ok(chosen.iter().enumerate().map(|(number, step)| step.work(number, finishing, &words)).collect())
+        Ok(Between { works: works(chosen), are_after_walls: true })
     }
 }
 
-/// The rows after which a part can be finished that are shortest together; none where no three narrowing balls do.
-fn chosen<'s>(steps: &'s [Step], cuts: &Cuts, part: &Part<'_>) -> Option<Vec<&'s Step>> {
+/// The rows after which a part can be finished that are shortest together, through what stands before them; none where no three
+/// narrowing balls do.
+fn chosen<'s>(steps: &'s [Step], cuts: &Cuts, part: &Part<'_>, before: &Left) -> Option<Vec<&'s Step>> {
     let mut best: Option<(f64, Vec<&Step>)> = None;
-    let mut open = vec![(0.0, Vec::new(), cuts.roughed.clone())];
-    while let Some((length, taken, heights)) = open.pop() {
+    let mut open = vec![(0.0, Vec::new(), before.clone())];
+    while let Some((length, taken, left)) = open.pop() {
         if best.as_ref().is_some_and(|(shortest, _)| length >= *shortest) {
             continue;
         }
-        if cuts.too_deep(&heights, part).is_empty() {
+        if cuts.too_deep(&left.about, part).is_empty() {
             best = Some((length, taken));
             continue;
         }
         let widest = taken.last().map_or(f64::INFINITY, |last: &&Step| last.rows.cutter.diameter);
         let follows = |step: &&Step| step.rows.cutter.diameter < widest;
         for step in steps.iter().filter(|_| taken.len() < STEPS).filter(follows) {
-            let Some((more, after)) = step.taken(&heights, cuts, part) else { continue };
+            let Some((more, after)) = step.taken(&left, part) else { continue };
             open.push((length + more, taken.iter().copied().chain([step]).collect(), after));
         }
     }
@@ -119,16 +166,19 @@ fn chosen<'s>(steps: &'s [Step], cuts: &Cuts, part: &Part<'_>) -> Option<Vec<&'s
 
 impl Part<'_> {
     /// What roughing leaves, where there is any.
-    fn roughed(&self, rougher: Option<&Work>) -> Heights {
+    fn roughed(&self, rougher: Option<&Work>) -> Left {
         let uncut = self.nodes.uncut();
-        let Some((work, tool)) = rougher.and_then(|work| Some((work, work.cutter.made()?))) else { return uncut };
+        let Some((work, tool)) = rougher.and_then(|work| Some((work, work.cutter.made()?))) else {
+            return Left { about: uncut.clone(), most: uncut };
+        };
         let (front, envelope) = (self.nodes.front(&tool, BESIDE), self.nodes.envelope(&tool, work.leave));
         let floors: Vec<f64> = Floors::of(&envelope).bands().into_iter().map(|(tip, _)| tip).collect();
         let mut tips = self.nodes.tips(&envelope, front.reach());
         for tip in &mut tips {
             *tip = level_at(*tip, (self.nodes.top, work.passes.pitch), &floors);
         }
-        lower(&uncut, &self.nodes.swept(&tips, &front).collect())
+        let left = |front: &Front| lower(&uncut, &self.nodes.swept(&tips, front).collect());
+        Left { about: left(&front), most: left(&front.without_rim(1)) }
     }
 
     /// Lowers heights to where a tool stands beside upright walls of some faces, mm.
@@ -142,9 +192,11 @@ impl Part<'_> {
     /// The rows that there may be, with the widest ball first.
     fn steps(&self, cuts: &Cuts, rougher: Option<&Work>) -> Vec<Step> {
         let narrowest = cuts.finishing.iter().map(|passes| passes.cutter.diameter).fold(f64::INFINITY, f64::min);
-        let by_size = WIDEST * self.nodes.size[0].min(self.nodes.size[1]);
+        let [smaller, _] = self.nodes.sides();
+        let by_size = WIDEST * smaller;
         let widest = rougher.map_or(by_size, |work| work.cutter.diameter);
-        let wider = sizes::between([narrowest, widest]).filter(|diameter| *diameter > narrowest);
+        let wider = sizes::between([narrowest, widest], Shape::Ball, thinnest(&self.nodes));
+        let wider = wider.filter(|diameter| *diameter > narrowest);
         wider.filter_map(|diameter| self.rows(diameter)).collect()
     }
 
@@ -168,8 +220,11 @@ impl Part<'_> {
 impl Cuts {
     /// The operations that cut too deep at once through some stock, each with its largest depth, mm.
     fn too_deep(&self, heights: &Heights, part: &Part<'_>) -> Vec<(&Passes, f64)> {
-        let each = self.finishing.iter();
-        each.filter_map(|passes| Some((passes, passes.too_deep(heights, (&self.walls, &part.nodes))?))).collect()
+        let after_walls = lower(heights, &self.walls);
+        let too_deep = |passes: &Passes| {
+            passes.too_deep(if passes.is_after_walls { &after_walls } else { heights }, &part.nodes, FEW)
+        };
+        self.finishing.iter().filter_map(|passes| Some((passes, too_deep(passes)?))).collect()
     }
 }
 
@@ -183,15 +238,14 @@ struct Passes {
 }
 
 impl Passes {
-    /// The largest depth that it cuts at once, mm, where that is more than it may; `walls`: what levels along walls leave.
-    fn too_deep(&self, heights: &Heights, (walls, nodes): (&Heights, &StockNodes<'_>)) -> Option<f64> {
-        let lowered = self.is_after_walls.then(|| lower(heights, walls));
+    /// The largest depth that it cuts at once, mm, where that is more than it may at more than a `few` nodes.
+    fn too_deep(&self, heights: &Heights, nodes: &StockNodes<'_>, few: usize) -> Option<f64> {
         let (mut count, mut largest) = (0, 0.0);
-        for depth in nodes.over(lowered.as_ref().unwrap_or(heights), (&self.standing, &self.middle)) {
+        for depth in nodes.over(heights, (&self.standing, &self.middle)) {
             count += usize::from(depth > DEEPEST * self.cutter.diameter);
             largest = f64::max(largest, depth);
         }
-        (count > FEW).then_some(largest)
+        (count > few).then_some(largest)
     }
 }
 
@@ -207,10 +261,10 @@ struct Step {
 
 impl Step {
     /// The length of the path, mm, about, and what is left after it; none where it cuts too deep itself.
-    fn taken(&self, heights: &Heights, cuts: &Cuts, part: &Part<'_>) -> Option<(f64, Heights)> {
+    fn taken(&self, left: &Left, part: &Part<'_>) -> Option<(f64, Left)> {
         let length = part.nodes.area(self.rows.standing.iter().flatten().count()) / self.pitch;
-        let is_deep = self.rows.too_deep(heights, (&cuts.walls, &part.nodes)).is_some();
-        (!is_deep).then(|| (length, lower(heights, &self.leaves)))
+        let is_deep = self.rows.too_deep(&left.most, &part.nodes, 0).is_some();
+        (!is_deep).then(|| (length, left.lowered(&self.leaves)))
     }
 
     /// The operation, by its number among those in between; `words`: why.
@@ -255,4 +309,39 @@ fn level_at(tip: f64, (top, pitch): (f64, f64), floors: &[f64]) -> f64 {
     let by_steps = top - ((top - tip) / pitch + 1e-6).floor() * pitch;
     let over = floors.partition_point(|floor| *floor < tip - 1e-6 * pitch);
     floors.get(over).map_or(by_steps, |floor| by_steps.min(*floor))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn work(id: &str, serves: Serves) -> Work {
+        Work {
+            id: id.to_owned(),
+            serves,
+            tool: "cutter".to_owned(),
+            cutter: Cutter { shape: Shape::Ball, diameter: 4.0 },
+            faces: None,
+            passes: StarterPasses::default(),
+            leave: 0.0,
+            why: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn rows_come_before_finishing_or_after_the_walls() {
+        let finishing = || vec![work("floors", Serves::Floors), work("walls", Serves::Walls)];
+        let order = |are_after_walls: bool| -> Vec<String> {
+            let between = Between { works: vec![work("rows", Serves::Floors)], are_after_walls };
+            between.before(finishing()).map(|work| work.id).collect()
+        };
+        assert_eq!(order(false), ["rows", "floors", "walls"]);
+        assert_eq!(order(true), ["walls", "rows", "floors"]);
+    }
+
+    #[test]
+    fn what_is_left_at_most_is_never_lower() {
+        let left = Left { about: vec![1.0, 5.0], most: vec![3.0, 5.0] }.lowered(&vec![2.0, 2.0]);
+        assert_eq!((left.about, left.most), (vec![1.0, 2.0], vec![2.0, 2.0]));
+    }
 }

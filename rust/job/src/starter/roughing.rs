@@ -27,6 +27,8 @@ const LONGER: f64 = 4.0;
 const ENGAGEMENT_DEG: f64 = 60.0;
 /// Depth of a level, as a share of the tool's diameter: at a bounded engagement angle it could be deeper, shanks of long tools bend.
 const LEVEL: f64 = 0.5;
+/// A level is no deeper than this, mm: cutting edges of inserts are not much longer.
+const DEEPEST: f64 = 25.0;
 /// Levels at most.
 const LEVELS: f64 = 20.0;
 /// Stock that is left for finishing, as a share of the tool's diameter, and its limits, mm.
@@ -48,7 +50,7 @@ struct Cleared {
 impl Cleared {
     /// Depth of a level, mm.
     fn pitch(&self) -> f64 {
-        round((LEVEL * self.cutter.diameter).min(self.depth).max(self.depth / LEVELS))
+        round((LEVEL * self.cutter.diameter).min(DEEPEST).min(self.depth).max(self.depth / LEVELS))
     }
 
     /// The operation; `width`: why the tool is as wide.
@@ -89,8 +91,9 @@ pub fn roughing(
     faces: Option<&[u32]>,
 ) -> Result<Vec<Work>, String> {
     let nodes = StockNodes::new(body.mesh(), allowances, drilled, NODES);
-    let [smaller, larger] = [f64::min, f64::max].map(|of| of(nodes.size[0], nodes.size[1]));
-    let sizes = sizes::between([STURDY.max(THINNEST * larger), WIDEST * smaller]);
+    let [smaller, _] = nodes.sides();
+    let narrowest = thinnest(&nodes);
+    let sizes = sizes::between([STURDY.max(narrowest), WIDEST * smaller], Shape::Flat, narrowest);
     let tried: Vec<Cleared> = sizes.filter_map(|diameter| cleared(&nodes, diameter)).collect();
     let most = tried.iter().map(|cleared| cleared.volume).fold(0.0, f64::max);
     let enough = tried.iter().position(|cleared| cleared.volume > 0.0 && cleared.volume >= ENOUGH * most);
@@ -113,6 +116,12 @@ pub fn roughing(
     let gap = format!("what one of {widest} mm leaves in narrow spaces is more than a finishing tool cuts at once");
     let first = std::iter::once(chosen.work(&width, faces));
     Ok(first.chain(narrower.map(|cleared| cleared.work(&gap, faces))).collect())
+}
+
+/// The narrowest tool that suits a stock's size, mm.
+pub fn thinnest(nodes: &StockNodes<'_>) -> f64 {
+    let [_, larger] = nodes.sides();
+    THINNEST * larger
 }
 
 /// What a flat tool clears of the stock; none for one that cannot be made, or that gets to nothing.

@@ -8,6 +8,10 @@ use crate::body::{Body, FaceLook, Hollows};
 
 /// Diameters of cutters and styluses, mm.
 const DIAMETERS: [f64; 14] = [20.0, 16.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.8, 0.5];
+/// Diameters of cutters with inserts, mm, that rough large parts: ISO 6462 and what lies below.
+const WITH_INSERTS: [f64; 7] = [100.0, 80.0, 63.0, 50.0, 40.0, 32.0, 25.0];
+/// The widest ball with inserts, mm.
+const WIDEST_BALL: f64 = 50.0;
 /// Largest diameter against the part's smaller side: a stylus travels within it, a cutter around it.
 const WIDEST: [f64; 2] = [0.15, 0.25];
 /// Cutters that nothing bounds are no smaller than this, mm,
@@ -71,14 +75,25 @@ impl Cutter {
     }
 }
 
-/// The next smaller diameter that a shop has and that makes sense for a part of some size, mm.
-pub fn next_smaller(diameter: f64, mesh: &Mesh) -> Option<f64> {
-    DIAMETERS.into_iter().find(|other| *other < diameter).filter(|smaller| *smaller >= thinnest(mesh))
+/// The diameters that a shop has for a part for which no narrower tool makes sense, mm, the widest first: cutters with inserts only where
+/// none in one piece is as wide.
+fn of_shop(shape: Shape, thinnest: f64) -> impl Iterator<Item = f64> {
+    let [widest, ..] = DIAMETERS;
+    let is_large = thinnest > widest;
+    let with_inserts =
+        WITH_INSERTS.into_iter().filter(move |d| is_large && (shape != Shape::Ball || *d <= WIDEST_BALL));
+    with_inserts.chain(DIAMETERS)
 }
 
-/// The diameters that a shop has between two, mm, the widest first.
-pub fn between([least, most]: [f64; 2]) -> impl Iterator<Item = f64> {
-    DIAMETERS.into_iter().filter(move |d| (least..=most).contains(d))
+/// The next smaller diameter that a shop has and that makes sense for a part of some size, mm.
+pub fn next_smaller(cutter: &Cutter, mesh: &Mesh) -> Option<f64> {
+    let thinnest = thinnest(mesh);
+    of_shop(cutter.shape, thinnest).find(|other| *other < cutter.diameter).filter(|smaller| *smaller >= thinnest)
+}
+
+/// The diameters between two that a shop has, mm, the widest first; `thinnest` is the narrowest that makes sense for the part.
+pub fn between([least, most]: [f64; 2], shape: Shape, thinnest: f64) -> impl Iterator<Item = f64> {
+    of_shop(shape, thinnest).filter(move |d| (least..=most).contains(d))
 }
 
 /// The radius up to which a tool from above fits the concave areas of a part, all but a fiftieth of its area, mm; none where
@@ -94,7 +109,7 @@ pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, 
     // sharper ones tear the sheet
     let least = 2.0 * thickness.unwrap_or(0.0);
     let [widest, _] = WIDEST.map(|share| share * smaller_side(mesh));
-    let (diameter, words) = fitting(mesh, bound, widest, least);
+    let (diameter, words) = fitting((mesh, &DIAMETERS), bound, widest, least);
     (Cutter { shape: Shape::Ball, diameter }, words)
 }
 
@@ -102,7 +117,8 @@ pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, 
 pub fn cutter<'f>(mesh: &Mesh, faces: impl IntoIterator<Item = &'f FaceLook>, shape: Shape) -> (Cutter, String) {
     let [_, widest] = WIDEST.map(|share| share * smaller_side(mesh));
     let sturdy = STURDY.min(HALF * smaller_side(mesh));
-    let (diameter, words) = fitting(mesh, Hollows::bound(faces, LEFT), widest.max(sturdy), 0.0);
+    let sizes: Vec<f64> = of_shop(shape, thinnest(mesh)).collect();
+    let (diameter, words) = fitting((mesh, &sizes), Hollows::bound(faces, LEFT), widest.max(sturdy), 0.0);
     (Cutter { shape, diameter }, words)
 }
 
@@ -118,15 +134,16 @@ fn thinnest(mesh: &Mesh) -> f64 {
     THINNEST * (high.x - low.x).max(high.y - low.y)
 }
 
-fn fitting(mesh: &Mesh, bound: Option<f64>, widest: f64, least: f64) -> (f64, String) {
-    let at_most = |limit: f64| DIAMETERS.into_iter().find(|d| *d <= limit).unwrap_or(0.5);
+/// Of some sizes, the widest first.
+fn fitting((mesh, sizes): (&Mesh, &[f64]), bound: Option<f64>, widest: f64, least: f64) -> (f64, String) {
+    let at_most = |limit: f64| sizes.iter().copied().find(|d| *d <= limit).unwrap_or(0.5);
     let widest = at_most(widest).max(at_most(thinnest(mesh)));
     let thinnest = f64::max(thinnest(mesh), least);
     let Some(radius) = bound.filter(|radius| 2.0 * SLACK * radius < widest) else {
         return (widest, format!("the tool, {widest} mm wide, follows from the part's size: nothing narrow bounds it, but for {} of the area at most", percent(LEFT)));
     };
     let fits = at_most(2.0 * SLACK * radius);
-    let wide = DIAMETERS.into_iter().rev().find(|d| *d >= thinnest).unwrap_or(widest).min(widest);
+    let wide = sizes.iter().rev().copied().find(|d| *d >= thinnest).unwrap_or(widest).min(widest);
     if fits >= wide {
         let words = format!("the tool, {fits} mm wide, fits the narrowest areas, but for {} of the area: a radius of {radius:.2} mm fits there", percent(LEFT));
         return (fits, words);
@@ -159,6 +176,16 @@ pub fn round(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cutters_with_inserts_are_for_large_parts_alone() {
+        let widest = |shape, thinnest| of_shop(shape, thinnest).next();
+        assert_eq!([12.0, 20.0].map(|thinnest| widest(Shape::Flat, thinnest)), [Some(20.0); 2]);
+        assert_eq!(widest(Shape::Flat, 20.1), Some(100.0));
+        assert_eq!(widest(Shape::Ball, 20.1), Some(50.0));
+        let rising = of_shop(Shape::Flat, 80.0).collect::<Vec<_>>().windows(2).all(|pair| pair[0] > pair[1]);
+        assert!(rising, "a size is there twice, or out of order");
+    }
 
     #[test]
     fn thin_sheets_are_measured_to_a_thousandth() {

@@ -21,7 +21,7 @@ pub struct StockNodes<'a> {
     pub top: f64,
     pub foot: f64,
     /// Of the stock in plan, mm.
-    pub size: [f64; 2],
+    size: [f64; 2],
     /// Between nodes, mm.
     apart: f64,
     counts: [usize; 2],
@@ -44,6 +44,14 @@ impl Front {
     pub fn reach(&self) -> usize {
         self.reach
     }
+
+    /// Without what is nearer to its rim than so many nodes.
+    pub fn without_rim(&self, nodes: usize) -> Self {
+        let within = self.reach.saturating_sub(nodes);
+        let is_within =
+            |at: &[usize; 2]| at.iter().map(|i| i.abs_diff(self.reach).pow(2)).sum::<usize>() <= within * within;
+        Self { reach: self.reach, heights: self.heights.iter().filter(|(at, _)| is_within(at)).copied().collect() }
+    }
 }
 
 /// A tool that stands on the part over a node.
@@ -56,6 +64,12 @@ pub struct Standing {
 }
 
 impl<'a> StockNodes<'a> {
+    /// The shorter and the longer side of the stock in plan, mm.
+    pub fn sides(&self) -> [f64; 2] {
+        let [x, y] = self.size;
+        [x.min(y), x.max(y)]
+    }
+
     /// So many nodes along the stock's longer side.
     pub fn new(mesh: &'a Mesh, allowances: Allowances, holes: &'a [Drilled], count: f64) -> Self {
         let (low, high) = mesh.bounds();
