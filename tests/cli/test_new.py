@@ -144,6 +144,48 @@ def test_a_table_of_one_s_own_is_named_in_the_job(parts, cli):
     assert 'no operation "roughing"' in job.read_text()
 
 
+def plate_with_a_pocket(length):
+    """Thickness 40 mm, with an upright pocket whose corners have a radius of 10 mm."""
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+    from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+    from OCP.gp import gp_Pnt
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp
+    from OCP.TopoDS import TopoDS
+    from OCP.TopTools import TopTools_IndexedMapOfShape
+
+    inner = BRepPrimAPI_MakeBox(gp_Pnt(60.0, 60.0, 20.0), 300.0, 200.0, 40.0).Shape()
+    edges = TopTools_IndexedMapOfShape()
+    TopExp.MapShapes_s(inner, TopAbs_ShapeEnum.TopAbs_EDGE, edges)
+    rounded = BRepFilletAPI_MakeFillet(inner)
+    for number in (1, 3, 5, 7):  # the upright ones
+        rounded.Add(10.0, TopoDS.Edge_s(edges.FindKey(number)))
+    return BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(length, 500.0, 40.0).Shape(), rounded.Shape()).Shape()
+
+
+@pytest.mark.parametrize(("length", "rougher"), [(900.0, 20.0), (1100.0, 100.0)])
+def test_large_parts_are_roughed_with_inserts(tmp_path, cli, length, rougher):
+    part = tmp_path / "plate.step"
+    write_step(plate_with_a_pocket(length), part)
+    made = cli("new", part)
+    assert made.code == 0, made.err
+    tools = sc.Job.read(tmp_path / "plate.toml").document["tools"]
+    assert tools["rougher"]["profile"]["diameter"] == rougher
+    text = re.sub(r"\n# *", " ", (tmp_path / "plate.toml").read_text())
+    assert ("one with inserts" in text) == (rougher > 20.0)
+
+
+def test_cutters_are_no_wider_than_the_material_s_data_allow(tmp_path, cli):
+    """Routers in wood turn at 18,000 rev/min whatever their diameter."""
+    part = tmp_path / "panel.step"
+    write_step(plate_with_a_pocket(1100.0), part)
+    made = cli("new", part, "--material", "wood")
+    assert made.code == 0, made.err
+    tools = sc.Job.read(tmp_path / "panel.toml").document["tools"]
+    assert max(tool["profile"]["diameter"] for tool in tools.values()) <= 25.4
+
+
 def test_an_unknown_material_lists_the_known_ones(parts, cli):
     ran = cli("new", parts / "box.step", "--material", "unobtainium", "--out", parts / "none.toml")
     assert ran.code == 2 and '"stainless" (stainless steel, austenitic)' in ran.err

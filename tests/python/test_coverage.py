@@ -39,6 +39,11 @@ def test_the_scallop_between_rows_is_that_of_a_circle() -> None:
     assert face["points"] >= 20_000
 
 
+def test_points_follow_the_distance_between_passes() -> None:
+    (face,) = verified(PLATE, stepover=0.4).coverage()
+    assert face["points"] == pytest.approx(25 * 600.0 / 0.4**2, rel=0.1)
+
+
 def test_walls_that_rows_pass_by_are_left() -> None:
     (face,) = verified(box([0.0, 0.0, -5.0], [30.0, 20.0, 0.0])).coverage()
     assert face["area"] == pytest.approx(600.0 + 500.0)

@@ -103,7 +103,8 @@ impl<P> LinkRules<P> for OverClearance {
     }
 }
 
-/// Short links follow the envelope, as long as they touch selected faces only.
+/// Short links follow the envelope, as long as they touch selected faces only and do not go down beside both of their ends, into what no
+/// pass has cut yet, by more than a link may be long.
 pub struct AlongSurface<'a> {
     /// The envelope, and what of it is selected.
     pub surface: &'a Surface<'a>,
@@ -128,7 +129,11 @@ impl LinkRules<PathPoint> for AlongSurface<'_> {
         }
         let floor = |planes: Planes| planes.under(from.tip.z.min(to.tip.z));
         let surface = self.surface.above(self.planes.map_or(f64::NEG_INFINITY, floor));
+        let lowest = from.tip.z.min(to.tip.z) - self.longest;
         let run = along_selected(&surface, &[*from, *to], self.deviation, self.narrow)?;
+        if run.iter().any(|point| point.tip.z < lowest) {
+            return None;
+        }
         if self.corner < f64::INFINITY {
             return Some(Arcs::none(self.corner).along(&run, Neighbours::default(), self.deviation, self.feed));
         }

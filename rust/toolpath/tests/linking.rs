@@ -93,6 +93,29 @@ fn a_short_link_follows_the_surface() {
     assert_moves(&found, &in_operation(&[&down_to(6.0, 4.0)[..], &cuts[..]].concat()));
 }
 
+/// The link, if any, across a slot 8 mm wide between two points of its top, 10 mm apart, where 12 mm are allowed.
+fn across_slot(depth: f64) -> Option<Vec<Segment>> {
+    let profile = [[0.0, 0.0], [8.0, 0.0], [8.0, -depth], [16.0, -depth], [16.0, 0.0], [24.0, 0.0]];
+    let at = |y| profile.map(|[x, z]| Vector::new(x, y, z));
+    let vertices: Vec<Vector> = [0.0, 20.0].into_iter().flat_map(at).collect();
+    let triangles: Vec<[i64; 3]> = (0..5).flat_map(|i| [[i, i + 1, i + 7], [i, i + 7, i + 6]]).collect();
+    let mesh = Mesh::new(vertices, &triangles, &[]).unwrap();
+    let ball = ProfileDocument::from(kinds::Ball { diameter: 6.0, radius: None, tip_flat: 0.0 });
+    let (index, tool) = (Index::new(&mesh), Tool::new(ToolDocument::of(ball)).unwrap());
+    let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+    let selected = [true; 10];
+    let surface = Surface::new(&envelope, &selected);
+    let [from, to] = [7.0, 17.0].map(|x| surface.at(x, 10.0, &mut None).unwrap());
+    along(&surface, 12.0).path(&from, &to)
+}
+
+#[test]
+fn a_link_goes_no_farther_down_beside_its_ends_than_it_may_be_long() {
+    let lowest = |link: Vec<Segment>| link.iter().map(|segment| segment.end.z).fold(0.0, f64::min);
+    assert!((across_slot(5.0).map(lowest).unwrap() + 5.0).abs() < 1e-9);
+    assert!(across_slot(13.0).is_none());
+}
+
 #[test]
 fn a_long_link_goes_over_clearance() {
     assert_moves(&on_ramp(true, |surface| linked(surface, &along(surface, 2.5))), &over());

@@ -182,7 +182,7 @@ impl Face {
 /// All moves that are meant to touch, by tool.
 pub(crate) struct Sweeps {
     tools: Vec<(Body, RTree<Sweep>)>,
-    /// Length of those that may touch the part, mm.
+    /// Length of those near the part, mm.
     length: f64,
     /// What may be left at a covered position, mm.
     enough: f64,
@@ -323,12 +323,15 @@ impl Sweeps {
     }
 }
 
-/// A box that holds every position at which a body touches a mesh.
+/// A box that holds every position at which a body touches a mesh, or is within half its radius of it.
 fn around(mesh: &Mesh, body: &Body) -> AABB<[f64; 3]> {
     let (low, high) = mesh.bounds();
-    let radius = Vector::new(body.radius(), body.radius(), 0.0);
-    let [low, high] = [low - radius, high + radius];
-    AABB::from_corners([low.x, low.y, f64::NEG_INFINITY], high.into())
+    let near = 0.5 * body.radius();
+    let beside = near + body.radius();
+    AABB::from_corners(
+        [low.x - beside, low.y - beside, f64::NEG_INFINITY],
+        [high.x + beside, high.y + beside, high.z + near],
+    )
 }
 
 /// The search for the move that sweeps nearest to a point.

@@ -271,7 +271,8 @@ impl Look<'_> {
         };
         let stands = |excess: &&Excess| watch.is_cancelled() || is_missing(excess);
         let worst = |beside: &[Excess]| beside.par_iter().find_first(stands).map(|excess| excess.fault);
-        let faults = found.chunk_by(|a, b| a.fault.index == b.fault.index).filter_map(worst).collect();
+        let beside_each = found.par_chunk_by(|a, b| a.fault.index == b.fault.index);
+        let faults = beside_each.filter_map(worst).collect();
         watch.advance(0).map(|()| faults)
     }
 

@@ -12,11 +12,6 @@ use styluscam_geometry::{Cutter, CutterMaterial};
 use super::table::{CuttingEntry, CuttingTable, CuttingWork};
 use crate::JobError;
 
-/// Smallest diameter as a share of the smallest in the table, and largest as one of the largest, for which its chips stand: teeth of cutters
-/// 100 mm wide take no thinner chips than those of 20 mm (Mitsubishi Materials, general catalogue 2020-2021, recommended cutting conditions:
-/// 0.1 to 0.25 mm in steel, 0.2 to 0.25 mm in aluminium).
-const SIZES: [f64; 2] = [0.1, 5.0];
-
 /// What is cut, with what, how.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut<'a> {
@@ -203,7 +198,7 @@ fn fed(
     reasons: &mut Vec<String>,
 ) -> Result<CuttingData, JobError> {
     let whole = 2.0 * cut.cutter.max_radius();
-    let full = chip_at(&entry.chips(), whole, reasons)?;
+    let full = chip_at(entry, cut.work, whole, reasons)?;
     let chip = full * share_at_depth(entry, cut.engagement.depth, whole, reasons);
     let (mut per_tooth, flutes) = if cut.work.mills() {
         (thinned(cut.engagement, chip, circle, reasons), f64::from(cut.flutes.unwrap_or(1)))
@@ -251,9 +246,10 @@ fn fed(
 
 /// The chip at a diameter, mm: between the table's sizes by straight lines; below them as a share of the diameter; above as at the
 /// largest.
-fn chip_at(points: &[[f64; 2]], diameter: f64, reasons: &mut Vec<String>) -> Result<f64, JobError> {
+fn chip_at(entry: &CuttingEntry, work: CuttingWork, diameter: f64, reasons: &mut Vec<String>) -> Result<f64, JobError> {
+    let points = entry.chips();
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return Ok(0.0) };
-    let [least, most] = [SIZES[0] * first[0], SIZES[1] * last[0]];
+    let [least, most] = entry.sizes(work);
     if !(least..=most).contains(&diameter) {
         let message = format!(
             "the cutter is {} mm wide: the table's sizes are {} to {} mm",
@@ -278,7 +274,7 @@ fn chip_at(points: &[[f64; 2]], diameter: f64, reasons: &mut Vec<String>) -> Res
     if diameter > last[0] {
         reasons.push(format!("the table ends at {} mm: its feed there counts", digits(last[0])));
     }
-    Ok(between(points, diameter))
+    Ok(between(&points, diameter))
 }
 
 /// The value of a polyline at x; beyond its ends, theirs.

@@ -25,6 +25,13 @@ static SHIPPED: LazyLock<CuttingTable> = LazyLock::new(|| CuttingTable {
         .collect(),
 });
 
+/// Smallest diameter as a share of the smallest in an entry, and largest as one of the largest, for which its chips stand:
+const SMALLEST: f64 = 0.1;
+const LARGEST: f64 = 2.0;
+/// in milling at a cutting speed teeth of cutters 100 mm wide take no thinner chips than those of 20 mm (Mitsubishi Materials, general
+/// catalogue 2020-2021, recommended cutting conditions: 0.1 to 0.25 mm in steel, 0.2 to 0.25 mm in aluminium).
+const LARGEST_OF_MILLS: f64 = 5.0;
+
 /// m in a foot, and mm in an inch.
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 25.4;
@@ -302,6 +309,15 @@ impl CuttingEntry {
     pub fn chips(&self) -> Vec<[f64; 2]> {
         let in_inches = self.chip_inch.iter().map(|point| point.map(|inches| INCH * inches));
         self.chip_mm.iter().copied().chain(in_inches).collect()
+    }
+
+    /// The smallest and the largest diameter for which its chips stand, mm.
+    #[must_use]
+    pub fn sizes(&self, work: CuttingWork) -> [f64; 2] {
+        let chips = self.chips();
+        let largest = if work.mills() && self.speed().is_some() { LARGEST_OF_MILLS } else { LARGEST };
+        let [first, last] = [chips.first(), chips.last()].map(|point| point.map_or(0.0, |point| point[0]));
+        [SMALLEST * first, largest * last]
     }
 
     /// Where the chips are stated.

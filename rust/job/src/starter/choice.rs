@@ -4,10 +4,12 @@ use styluscam_geometry::{Bvh, Frame, Mesh};
 
 use super::allowances::Allowances;
 use super::drilling::drilling;
+use super::feeds::{CUTTER, MATERIAL};
 use super::operations::{self, Milled};
 use super::part::StarterPart;
 use super::preparing::{Between, Cuts, Part};
 use super::roughing::roughing;
+use super::shop::Shop;
 use super::sizes;
 use super::work::Work;
 use super::workable::{covered, workable};
@@ -71,26 +73,30 @@ struct Formed {
 
 /// Looks at the part and chooses.
 pub fn choose(part: &StarterPart<'_>) -> Choice {
+    let shop = Shop::of(part, part.material.unwrap_or(MATERIAL), CUTTER);
     let lying = Turned::new(part.mesh, UpAxis::PlusZ);
     let body = lying.body();
     let shell = body.shell();
     let thickness = body.thickness();
     let sides = body.sides();
     let mut choice = match (shell, thickness) {
-        (Shell::Open, _) => open(lying, &sides),
-        (Shell::Closed | Shell::Torn, Some(thickness)) if thickness.is_sheet() => sheet(lying, &thickness, &sides),
-        (Shell::Closed | Shell::Torn, Some(thickness)) => mill(lying, &sides, vec![solid(&thickness)]),
+        (Shell::Open, _) => open(lying, &sides, &shop),
+        (Shell::Closed | Shell::Torn, Some(thickness)) if thickness.is_sheet() => {
+            sheet(lying, &thickness, &sides, &shop)
+        }
+        (Shell::Closed | Shell::Torn, Some(thickness)) => mill(lying, &sides, vec![solid(&thickness)], &shop),
         (Shell::Closed | Shell::Torn, None) => {
-            mill(lying, &sides, vec!["the part is a solid: it is milled".to_owned()])
+            mill(lying, &sides, vec!["the part is a solid: it is milled".to_owned()], &shop)
         }
         (Shell::InsideOut, _) => mill(
             lying,
             &sides,
             vec!["the part's triangles are wound inward: export it with its normals outward".into()],
+            &shop,
         ),
         (Shell::Mixed, _) => {
             let words = "some of the part's triangles are wound inward: repair the mesh before you trust this job";
-            mill(lying, &sides, vec![words.to_owned()])
+            mill(lying, &sides, vec![words.to_owned()], &shop)
         }
     };
     if shell == Shell::Torn {
@@ -104,7 +110,7 @@ fn solid(thickness: &Thickness) -> String {
     format!("the part is a solid ({thin:.1} to {thick:.1} mm thick), not a sheet of one thickness: it is milled")
 }
 
-fn open(lying: Turned, sides: &[Side; 6]) -> Choice {
+fn open(lying: Turned, sides: &[Side; 6], shop: &Shop) -> Choice {
     let what = "the part is an open surface without thickness";
     let ups = [UpAxis::PlusZ, UpAxis::MinusZ];
     let looks = |up: &UpAxis| sides.iter().any(|side| side.up == *up && side.up_share >= FACES_TOOL);
@@ -121,12 +127,12 @@ fn open(lying: Turned, sides: &[Side; 6]) -> Choice {
         }
         Err(why) => {
             let torn = "if it should be a solid, faces or triangles are missing: repair it before you trust this job";
-            mill(lying, sides, vec![format!("{what}, but {why}: it is milled"), torn.to_owned()])
+            mill(lying, sides, vec![format!("{what}, but {why}: it is milled"), torn.to_owned()], shop)
         }
     }
 }
 
-fn sheet(lying: Turned, thickness: &Thickness, sides: &[Side; 6]) -> Choice {
+fn sheet(lying: Turned, thickness: &Thickness, sides: &[Side; 6], shop: &Shop) -> Choice {
     let t = sizes::measured(thickness.median);
     let what = format!("the part is a sheet {t} mm thick on {:.0} % of its area", 100.0 * thickness.alike);
     match formed(&lying, Some(t), &[UpAxis::PlusZ, UpAxis::MinusZ]) {
@@ -137,7 +143,7 @@ fn sheet(lying: Turned, thickness: &Thickness, sides: &[Side; 6]) -> Choice {
             ];
             form(found, Some(t), reasons)
         }
-        Err(why) => mill(lying, sides, vec![format!("{what}, but {why}: it is milled")]),
+        Err(why) => mill(lying, sides, vec![format!("{what}, but {why}: it is milled")], shop),
     }
 }
 
@@ -181,7 +187,7 @@ fn form(found: Formed, thickness: Option<f64>, mut reasons: Vec<String>) -> Choi
     }
 }
 
-fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
+fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>, shop: &Shop) -> Choice {
     let (up, words) = best_side(sides);
     reasons.extend(words);
     let turned = if up == UpAxis::PlusZ { lying } else { Turned::new(&lying.mesh, up) };
@@ -194,12 +200,12 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>) -> Choice {
     let open: Vec<u32> = workable(&looks).map(|face| face.face).filter(|face| !done.contains(face)).collect();
     let are_all = done.is_empty() && covered(&looks).next().is_none();
     let faces = Some(open).filter(|open| !are_all && open.len() <= operations::NAMES);
-    let roughings = roughing(&body, allowances, &drilled, faces.as_deref()).unwrap_or_else(|why| {
+    let roughings = roughing((&body, shop), allowances, &drilled, faces.as_deref()).unwrap_or_else(|why| {
         reasons.push(why);
         Vec::new()
     });
-    let part = Part::new(&body, allowances, &drilled);
-    let (Milling { rougher, milled, .. }, between) = milling((&body, &looks, &done), &part, &roughings);
+    let part = Part::new((&body, shop), allowances, &drilled);
+    let (Milling { rougher, milled, .. }, between) = milling(((&body, shop), &looks, &done), &part, &roughings);
     works.extend(rougher);
     reasons.extend(milled.reasons);
     works.extend(drilled.into_iter().map(|holes| holes.work));
@@ -235,12 +241,12 @@ struct Milling {
 /// level floors first, else with the first of all; and what comes between roughing and finishing, or why finishing cuts deep without.
 /// `done` are the faces that are drilled.
 fn milling(
-    (body, looks, done): (&Body<'_>, &Hollows, &[u32]),
+    ((body, shop), looks, done): ((&Body<'_>, &Shop), &Hollows, &[u32]),
     part: &Part<'_>,
     roughings: &[Work],
 ) -> (Milling, Result<Between, String>) {
     let after = |rougher: Option<&Work>| {
-        let milled = operations::milling(body, looks, done, rougher.map(|work| &work.cutter));
+        let milled = operations::milling((body, shop), looks, done, rougher.map(|work| &work.cutter));
         let cuts = part.cuts(rougher, &milled.works);
         Milling { rougher: rougher.cloned(), milled, cuts }
     };

@@ -13,12 +13,12 @@ use crate::operations::Serves;
 use crate::{parse, resolve, JobDocument, JobError};
 
 /// What is cut where nothing is stated.
-const MATERIAL: &str = "aluminium";
+pub const MATERIAL: &str = "aluminium";
 /// What a small machine does at most, rev/min, mm/min: turning more slowly than the cutter stands harms nothing, turning faster does.
 const SMALL: MachineLimits = MachineLimits { min_rpm: None, max_rpm: Some(12_000.0), max_feed: Some(1500.0) };
 /// The cutter.
 const FLUTES: u32 = 2;
-const CUTTER: CutterMaterial = CutterMaterial::Carbide;
+pub const CUTTER: CutterMaterial = CutterMaterial::Carbide;
 /// What an operation has before its own spindle is known.
 const TURNING: &str = "spindle = { mode = \"fixed\", rpm = 1000.0 }\n";
 /// Feeds of a stylus, mm/min: along the path, and down.

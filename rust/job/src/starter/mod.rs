@@ -9,6 +9,7 @@ mod operations;
 mod part;
 mod preparing;
 mod roughing;
+mod shop;
 mod sizes;
 mod stock_nodes;
 mod text;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use styluscam_geometry::Mesh;
 use styluscam_verify::ToolReach;
 
+use super::shop::Shop;
 use super::sizes::{self, round, Cutter, Shape};
 use super::work::Work;
 use super::workable::{covered, workable};
@@ -121,13 +122,13 @@ fn work(
 /// Rows, levels, or both, with a tool that gets to the faces that are not `done` before. A flat one is no wider than the
 /// `rougher`: in corners it would meet what a narrower one has not cleared. Level floors and upright walls that a ball leaves are a
 /// flat one's.
-pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32], rougher: Option<&Cutter>) -> Milled {
+pub fn milling((body, shop): (&Body<'_>, &Shop), looks: &Hollows, done: &[u32], rougher: Option<&Cutter>) -> Milled {
     let seen: Vec<&FaceLook> = workable(looks).filter(|face| !done.contains(&face.face)).collect();
     let is_prismatic = seen.iter().all(|face| face.flat >= PRISMATIC || face.vertical >= PRISMATIC);
     let shape = if is_prismatic { Shape::Flat } else { Shape::Ball };
     let drilled = |face: &&FaceLook| face.hole.is_some();
     let (mut fitting, mut words) =
-        sizes::cutter(body.mesh(), seen.iter().copied().filter(|face| !drilled(face)), shape);
+        sizes::cutter((body.mesh(), shop), seen.iter().copied().filter(|face| !drilled(face)), shape);
     if let Some(rougher) = rougher.filter(|rougher| is_prismatic && rougher.diameter < fitting.diameter) {
         fitting.diameter = rougher.diameter;
         words = format!("the tool, {} mm wide: no wider than that of the roughing", rougher.diameter);
@@ -138,7 +139,7 @@ pub fn milling(body: &Body<'_>, looks: &Hollows, done: &[u32], rougher: Option<&
     let mut left = by_face.share_left(&milled);
     let (mut diameter, mut in_vain) = (fitting.diameter, 0);
     while left > SURE * allowed && in_vain < TRIED {
-        let Some(smaller) = sizes::next_smaller(&Cutter { diameter, ..fitting }, body.mesh()) else { break };
+        let Some(smaller) = sizes::next_smaller(&Cutter { diameter, ..fitting }, body.mesh(), shop) else { break };
         diameter = smaller;
         let words = format!("the tool, {diameter} mm wide: wider tools reach less of the faces");
         let smaller = worked(&by_face, &seen, Cutter { diameter, ..fitting }, words);

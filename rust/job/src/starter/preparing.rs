@@ -7,8 +7,9 @@ use styluscam_toolpath::forming::Floors;
 use super::allowances::Allowances;
 use super::drilling::Drilled;
 use super::operations::NAMES;
-use super::roughing::{thinnest, to_leave, WIDEST};
-use super::sizes::{self, measured, round, Cutter, Shape};
+use super::roughing::{to_leave, WIDEST};
+use super::shop::Shop;
+use super::sizes::{measured, round, Cutter, Shape};
 use super::stock_nodes::{Front, Standing, StockNodes};
 use super::work::Work;
 use crate::body::Body;
@@ -42,15 +43,21 @@ struct Left {
 }
 
 impl Left {
-    /// What is left where it was higher than some heights.
-    fn lowered(&self, to: &Heights) -> Self {
-        Self { about: lower(&self.about, to), most: lower(&self.most, to) }
+    /// What is left after others as well.
+    fn after(&self, others: &Self) -> Self {
+        Self { about: lower(&self.about, &others.about), most: lower(&self.most, &others.most) }
+    }
+
+    /// What is left after levels along walls, which are known about only.
+    fn after_walls(&self, walls: &Heights) -> Self {
+        Self { about: lower(&self.about, walls), most: lower(&self.most, walls) }
     }
 }
 
 /// A part whose stock is looked at.
 pub struct Part<'a> {
     nodes: StockNodes<'a>,
+    shop: &'a Shop,
 }
 
 /// Operations between roughing and finishing.
@@ -81,8 +88,8 @@ pub struct Cuts {
 }
 
 impl<'a> Part<'a> {
-    pub fn new(body: &Body<'a>, allowances: Allowances, drilled: &'a [Drilled]) -> Self {
-        Self { nodes: StockNodes::new(body.mesh(), allowances, drilled, NODES) }
+    pub fn new((body, shop): (&Body<'a>, &'a Shop), allowances: Allowances, drilled: &'a [Drilled]) -> Self {
+        Self { nodes: StockNodes::new(body.mesh(), allowances, drilled, NODES), shop }
     }
 
     /// How it is cut by a roughing, where there is any, and by operations that finish it.
@@ -132,12 +139,17 @@ impl<'a> Part<'a> {
             return Ok(Between { works: works(chosen), are_after_walls: false });
         }
         // levels along walls are finished first where they may cut all that is there
-        let mut before_rows = deep.iter().filter(|(passes, _)| !passes.is_after_walls);
-        let after_walls = before_rows.next().is_none().then(|| cuts.roughed.lowered(&cuts.walls));
+        let has_walls = cuts.finishing.iter().any(|passes| !passes.is_after_walls);
+        let are_walls_deep = deep.iter().any(|(passes, _)| !passes.is_after_walls);
+        let after_walls = (has_walls && !are_walls_deep).then(|| cuts.roughed.after_walls(&cuts.walls));
         let Some(chosen) = after_walls.and_then(|left| chosen(&steps, cuts, self, &left)) else {
-            return Err(format!("{words}, and no wider ball gets to enough of it: take that with another tool first"));
+            return Err(format!("{words}, and no wider ball gets to enough of it without cutting as deep: take that with another tool first"));
         };
-        Ok(Between { works: works(chosen), are_after_walls: true })
+        let mut works = works(chosen);
+        if let Some(first) = works.first_mut() {
+            first.why.push("after the levels along the walls: beside them it would cut deep down before".to_owned());
+        }
+        Ok(Between { works, are_after_walls: true })
     }
 }
 
@@ -177,8 +189,14 @@ impl Part<'_> {
         for tip in &mut tips {
             *tip = level_at(*tip, (self.nodes.top, work.passes.pitch), &floors);
         }
-        let left = |front: &Front| lower(&uncut, &self.nodes.swept(&tips, front).collect());
-        Left { about: left(&front), most: left(&front.without_rim(1)) }
+        let cut = self.left(&tips, &front);
+        Left { about: uncut.clone(), most: uncut }.after(&cut)
+    }
+
+    /// What the front of a tool leaves of a stock without end, at some tips.
+    fn left(&self, tips: &[f64], front: &Front) -> Left {
+        let left = |front: &Front| self.nodes.swept(tips, front).collect();
+        Left { about: left(front), most: left(&front.without_rim(1)) }
     }
 
     /// Lowers heights to where a tool stands beside upright walls of some faces, mm.
@@ -192,10 +210,10 @@ impl Part<'_> {
     /// The rows that there may be, with the widest ball first.
     fn steps(&self, cuts: &Cuts, rougher: Option<&Work>) -> Vec<Step> {
         let narrowest = cuts.finishing.iter().map(|passes| passes.cutter.diameter).fold(f64::INFINITY, f64::min);
-        let [smaller, _] = self.nodes.sides();
+        let [smaller, _] = self.nodes.stock_sides();
         let by_size = WIDEST * smaller;
         let widest = rougher.map_or(by_size, |work| work.cutter.diameter);
-        let wider = sizes::between([narrowest, widest], Shape::Ball, thinnest(&self.nodes));
+        let wider = self.shop.between([narrowest, widest], Shape::Ball);
         let wider = wider.filter(|diameter| *diameter > narrowest);
         wider.filter_map(|diameter| self.rows(diameter)).collect()
     }
@@ -205,7 +223,8 @@ impl Part<'_> {
         let cutter = Cutter { shape: Shape::Ball, diameter };
         let tool = cutter.made()?;
         let (front, envelope) = (self.nodes.front(&tool, BESIDE), self.nodes.envelope(&tool, to_leave(diameter)));
-        let leaves = self.nodes.swept(&self.nodes.tips(&envelope, front.reach()), &front).collect();
+        let tips = self.nodes.tips(&envelope, front.reach());
+        let leaves = self.left(&tips, &front);
         let (standing, middle) = (self.nodes.standing(&envelope), self.middle(&tool));
         let rows = Passes { cutter, standing, middle, is_after_walls: false };
         Some(Step { pitch: round(ROWS * diameter), leaves, rows })
@@ -254,7 +273,7 @@ struct Step {
     /// Between rows, mm.
     pitch: f64,
     /// What they leave of a whole stock.
-    leaves: Heights,
+    leaves: Left,
     /// Where they go.
     rows: Passes,
 }
@@ -264,7 +283,7 @@ impl Step {
     fn taken(&self, left: &Left, part: &Part<'_>) -> Option<(f64, Left)> {
         let length = part.nodes.area(self.rows.standing.iter().flatten().count()) / self.pitch;
         let is_deep = self.rows.too_deep(&left.most, &part.nodes, 0).is_some();
-        (!is_deep).then(|| (length, left.lowered(&self.leaves)))
+        (!is_deep).then(|| (length, left.after(&self.leaves)))
     }
 
     /// The operation, by its number among those in between; `words`: why.
@@ -340,8 +359,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_at_most_is_never_lower() {
-        let left = Left { about: vec![1.0, 5.0], most: vec![3.0, 5.0] }.lowered(&vec![2.0, 2.0]);
-        assert_eq!((left.about, left.most), (vec![1.0, 2.0], vec![2.0, 2.0]));
+    fn what_is_left_at_most_is_lowered_by_what_others_leave_at_most() {
+        let others = Left { about: vec![2.0, 2.0], most: vec![2.5, 6.0] };
+        let left = Left { about: vec![1.0, 5.0], most: vec![3.0, 5.0] }.after(&others);
+        assert_eq!((left.about, left.most), (vec![1.0, 2.0], vec![2.5, 5.0]));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::allowances::Allowances;
 use super::drilling::Drilled;
+use super::shop::{Shop, IN_ONE_PIECE};
 use super::sizes::{self, round, Cutter, Shape};
 use super::stock_nodes::StockNodes;
 use super::work::Work;
@@ -14,7 +15,7 @@ const NODES: f64 = 48.0;
 const ENOUGH: f64 = 0.9;
 /// Widest tool, as a share of the stock's smaller side.
 pub const WIDEST: f64 = 0.35;
-/// Narrowest tool, as a share of the stock's larger side: narrower ones take hours for its box.
+/// Narrowest tool, as a share of the stock's larger side, but for any with inserts: narrower ones take hours for its box.
 const THINNEST: f64 = 0.04;
 /// Narrower tools do not rough, mm: they finish what little there is, and moves of a few micrometres turn by degrees where they are rounded.
 const STURDY: f64 = 2.0;
@@ -27,9 +28,8 @@ const LONGER: f64 = 4.0;
 const ENGAGEMENT_DEG: f64 = 60.0;
 /// Depth of a level, as a share of the tool's diameter: at a bounded engagement angle it could be deeper, shanks of long tools bend.
 const LEVEL: f64 = 0.5;
-/// A level is no deeper than this, mm: cutting edges of inserts are not much longer.
-const DEEPEST: f64 = 25.0;
-/// Levels at most.
+/// A level is no deeper than this, mm, as long as there are not more levels: cutting edges of inserts are not much longer.
+const DEEPEST_LEVEL: f64 = 25.0;
 const LEVELS: f64 = 20.0;
 /// Stock that is left for finishing, as a share of the tool's diameter, and its limits, mm.
 const LEFT: f64 = 0.03;
@@ -50,14 +50,19 @@ struct Cleared {
 impl Cleared {
     /// Depth of a level, mm.
     fn pitch(&self) -> f64 {
-        round((LEVEL * self.cutter.diameter).min(DEEPEST).min(self.depth).max(self.depth / LEVELS))
+        round((LEVEL * self.cutter.diameter).min(DEEPEST_LEVEL).min(self.depth).max(self.depth / LEVELS))
     }
 
     /// The operation; `width`: why the tool is as wide.
     fn work(&self, width: &str, faces: Option<&[u32]>) -> Work {
         let Self { cutter, leave, .. } = *self;
+        let [in_one_piece, ..] = IN_ONE_PIECE;
+        let inserts = if cutter.diameter > in_one_piece { ", one with inserts" } else { "" };
         let why = vec![
-            format!("the stock is cleared level by level first, with a flat tool of {} mm: {width}", cutter.diameter),
+            format!(
+                "the stock is cleared level by level first, with a flat tool of {} mm{inserts}: {width}",
+                cutter.diameter
+            ),
             format!("{leave} mm stay on walls and floors for finishing"),
         ];
         Work {
@@ -85,15 +90,15 @@ impl Cleared {
 /// # Errors
 /// No tool of a shop gets to any stock that is worth it.
 pub fn roughing(
-    body: &Body<'_>,
+    (body, shop): (&Body<'_>, &Shop),
     allowances: Allowances,
     drilled: &[Drilled],
     faces: Option<&[u32]>,
 ) -> Result<Vec<Work>, String> {
     let nodes = StockNodes::new(body.mesh(), allowances, drilled, NODES);
-    let [smaller, _] = nodes.sides();
-    let narrowest = thinnest(&nodes);
-    let sizes = sizes::between([STURDY.max(narrowest), WIDEST * smaller], Shape::Flat, narrowest);
+    let [smaller, larger] = nodes.stock_sides();
+    let [widest, ..] = IN_ONE_PIECE;
+    let sizes = shop.between([(THINNEST * larger).clamp(STURDY, widest), WIDEST * smaller], Shape::Flat);
     let tried: Vec<Cleared> = sizes.filter_map(|diameter| cleared(&nodes, diameter)).collect();
     let most = tried.iter().map(|cleared| cleared.volume).fold(0.0, f64::max);
     let enough = tried.iter().position(|cleared| cleared.volume > 0.0 && cleared.volume >= ENOUGH * most);
@@ -116,12 +121,6 @@ pub fn roughing(
     let gap = format!("what one of {widest} mm leaves in narrow spaces is more than a finishing tool cuts at once");
     let first = std::iter::once(chosen.work(&width, faces));
     Ok(first.chain(narrower.map(|cleared| cleared.work(&gap, faces))).collect())
-}
-
-/// The narrowest tool that suits a stock's size, mm.
-pub fn thinnest(nodes: &StockNodes<'_>) -> f64 {
-    let [_, larger] = nodes.sides();
-    THINNEST * larger
 }
 
 /// What a flat tool clears of the stock; none for one that cannot be made, or that gets to nothing.

@@ -2,16 +2,11 @@
 
 use styluscam_geometry::{kinds, Bvh, Mesh, ProfileDocument, Tool, ToolDocument};
 
+use super::shop::{Shop, IN_ONE_PIECE};
 use super::text::number;
 use super::workable::workable;
 use crate::body::{Body, FaceLook, Hollows};
 
-/// Diameters of cutters and styluses, mm.
-const DIAMETERS: [f64; 14] = [20.0, 16.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.8, 0.5];
-/// Diameters of cutters with inserts, mm, that rough large parts: ISO 6462 and what lies below.
-const WITH_INSERTS: [f64; 7] = [100.0, 80.0, 63.0, 50.0, 40.0, 32.0, 25.0];
-/// The widest ball with inserts, mm.
-const WIDEST_BALL: f64 = 50.0;
 /// Largest diameter against the part's smaller side: a stylus travels within it, a cutter around it.
 const WIDEST: [f64; 2] = [0.15, 0.25];
 /// Cutters that nothing bounds are no smaller than this, mm,
@@ -75,25 +70,9 @@ impl Cutter {
     }
 }
 
-/// The diameters that a shop has for a part for which no narrower tool makes sense, mm, the widest first: cutters with inserts only where
-/// none in one piece is as wide.
-fn of_shop(shape: Shape, thinnest: f64) -> impl Iterator<Item = f64> {
-    let [widest, ..] = DIAMETERS;
-    let is_large = thinnest > widest;
-    let with_inserts =
-        WITH_INSERTS.into_iter().filter(move |d| is_large && (shape != Shape::Ball || *d <= WIDEST_BALL));
-    with_inserts.chain(DIAMETERS)
-}
-
 /// The next smaller diameter that a shop has and that makes sense for a part of some size, mm.
-pub fn next_smaller(cutter: &Cutter, mesh: &Mesh) -> Option<f64> {
-    let thinnest = thinnest(mesh);
-    of_shop(cutter.shape, thinnest).find(|other| *other < cutter.diameter).filter(|smaller| *smaller >= thinnest)
-}
-
-/// The diameters between two that a shop has, mm, the widest first; `thinnest` is the narrowest that makes sense for the part.
-pub fn between([least, most]: [f64; 2], shape: Shape, thinnest: f64) -> impl Iterator<Item = f64> {
-    of_shop(shape, thinnest).filter(move |d| (least..=most).contains(d))
+pub fn next_smaller(cutter: &Cutter, mesh: &Mesh, shop: &Shop) -> Option<f64> {
+    shop.sizes(cutter.shape).find(|other| *other < cutter.diameter).filter(|smaller| *smaller >= thinnest(mesh))
 }
 
 /// The radius up to which a tool from above fits the concave areas of a part, all but a fiftieth of its area, mm; none where
@@ -109,15 +88,19 @@ pub fn stylus(mesh: &Mesh, looks: &Hollows, thickness: Option<f64>) -> (Cutter, 
     // sharper ones tear the sheet
     let least = 2.0 * thickness.unwrap_or(0.0);
     let [widest, _] = WIDEST.map(|share| share * smaller_side(mesh));
-    let (diameter, words) = fitting((mesh, &DIAMETERS), bound, widest, least);
+    let (diameter, words) = fitting((mesh, &IN_ONE_PIECE), bound, widest, least);
     (Cutter { shape: Shape::Ball, diameter }, words)
 }
 
 /// The largest cutter that fits some faces, and the sentence on it.
-pub fn cutter<'f>(mesh: &Mesh, faces: impl IntoIterator<Item = &'f FaceLook>, shape: Shape) -> (Cutter, String) {
+pub fn cutter<'f>(
+    (mesh, shop): (&Mesh, &Shop),
+    faces: impl IntoIterator<Item = &'f FaceLook>,
+    shape: Shape,
+) -> (Cutter, String) {
     let [_, widest] = WIDEST.map(|share| share * smaller_side(mesh));
     let sturdy = STURDY.min(HALF * smaller_side(mesh));
-    let sizes: Vec<f64> = of_shop(shape, thinnest(mesh)).collect();
+    let sizes: Vec<f64> = shop.sizes(shape).collect();
     let (diameter, words) = fitting((mesh, &sizes), Hollows::bound(faces, LEFT), widest.max(sturdy), 0.0);
     (Cutter { shape, diameter }, words)
 }
@@ -128,10 +111,11 @@ fn smaller_side(mesh: &Mesh) -> f64 {
     (high.x - low.x).min(high.y - low.y)
 }
 
-/// Smallest diameter that makes sense for the part's size, mm.
+/// Smallest diameter that makes sense for the part's size, mm; any cutter with inserts does.
 fn thinnest(mesh: &Mesh) -> f64 {
     let (low, high) = mesh.bounds();
-    THINNEST * (high.x - low.x).max(high.y - low.y)
+    let [widest, ..] = IN_ONE_PIECE;
+    (THINNEST * (high.x - low.x).max(high.y - low.y)).min(widest)
 }
 
 /// Of some sizes, the widest first.
@@ -175,16 +159,17 @@ pub fn round(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use styluscam_geometry::Vector;
+
     use super::*;
 
     #[test]
-    fn cutters_with_inserts_are_for_large_parts_alone() {
-        let widest = |shape, thinnest| of_shop(shape, thinnest).next();
-        assert_eq!([12.0, 20.0].map(|thinnest| widest(Shape::Flat, thinnest)), [Some(20.0); 2]);
-        assert_eq!(widest(Shape::Flat, 20.1), Some(100.0));
-        assert_eq!(widest(Shape::Ball, 20.1), Some(50.0));
-        let rising = of_shop(Shape::Flat, 80.0).collect::<Vec<_>>().windows(2).all(|pair| pair[0] > pair[1]);
-        assert!(rising, "a size is there twice, or out of order");
+    fn what_fits_a_large_part_is_no_wider_for_its_length() {
+        let corners = [[0.0, 0.0], [2000.0, 0.0], [2000.0, 500.0], [0.0, 500.0]].map(|[x, y]| Vector::new(x, y, 0.0));
+        let mesh = Mesh::new(corners.to_vec(), &[[0, 1, 2], [0, 2, 3]], &[]).unwrap();
+        let sizes = [100.0, 50.0, 25.0, 20.0, 16.0];
+        let width = |radius: f64| fitting((&mesh, &sizes), Some(radius), 125.0, 0.0).0;
+        assert_eq!([60.0, 25.0, 10.0, 6.0].map(width), [100.0, 50.0, 20.0, 20.0]);
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub struct Standing {
 
 impl<'a> StockNodes<'a> {
     /// The shorter and the longer side of the stock in plan, mm.
-    pub fn sides(&self) -> [f64; 2] {
+    pub fn stock_sides(&self) -> [f64; 2] {
         let [x, y] = self.size;
         [x.min(y), x.max(y)]
     }

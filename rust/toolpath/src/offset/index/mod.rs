@@ -29,7 +29,7 @@ const WALL: f64 = 1e-3;
 /// What rounding makes of a position, as a share of the coordinates.
 const ROUNDING: f64 = 1e-13;
 
-/// Triangles between two looks at whether to stop: some milliseconds of work.
+/// Triangles, or as much work, between two looks at whether to stop: some milliseconds.
 pub(super) const BATCH: usize = 1 << 16;
 
 /// Stages of building that progress shows.
