@@ -4,7 +4,6 @@ use styluscam_geometry::{Bvh, Frame, Mesh};
 
 use super::allowances::Allowances;
 use super::drilling::drilling;
-use super::feeds::{CUTTER, MATERIAL};
 use super::operations::{self, Milled};
 use super::part::StarterPart;
 use super::preparing::{Between, Cuts, Part};
@@ -73,7 +72,7 @@ struct Formed {
 
 /// Looks at the part and chooses.
 pub fn choose(part: &StarterPart<'_>) -> Choice {
-    let shop = Shop::of(part, part.material.unwrap_or(MATERIAL), CUTTER);
+    let shop = Shop::of(part);
     let lying = Turned::new(part.mesh, UpAxis::PlusZ);
     let body = lying.body();
     let shell = body.shell();

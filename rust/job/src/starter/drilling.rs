@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use styluscam_geometry::{Mesh, Vector};
 
-use super::sizes::{measured, Cutter, Shape};
+use super::cutter::{Cutter, Shape};
+use super::sizes::measured;
 use super::work::Work;
 use crate::body::Body;
 use crate::holes::{holes_among, Hole};

@@ -1,10 +1,9 @@
 //! Feeds and the spindle of a starter job: for solids from the table of cutting data, for sheets as a stylus slides.
 
-use styluscam_geometry::CutterMaterial;
-
 use super::choice::Choice;
 use super::feed_lines::StarterFeeds;
 use super::part::StarterPart;
+use super::shop::{CUTTER, MATERIAL};
 use super::text::{number, quoted, wrapped};
 use super::work::Work;
 use super::written::Written;
@@ -12,13 +11,10 @@ use crate::cutting::{data_of, CuttingData, CuttingTable, MachineLimits};
 use crate::operations::Serves;
 use crate::{parse, resolve, JobDocument, JobError};
 
-/// What is cut where nothing is stated.
-pub const MATERIAL: &str = "aluminium";
 /// What a small machine does at most, rev/min, mm/min: turning more slowly than the cutter stands harms nothing, turning faster does.
 const SMALL: MachineLimits = MachineLimits { min_rpm: None, max_rpm: Some(12_000.0), max_feed: Some(1500.0) };
-/// The cutter.
+/// Teeth of a cutter.
 const FLUTES: u32 = 2;
-pub const CUTTER: CutterMaterial = CutterMaterial::Carbide;
 /// What an operation has before its own spindle is known.
 const TURNING: &str = "spindle = { mode = \"fixed\", rpm = 1000.0 }\n";
 /// Feeds of a stylus, mm/min: along the path, and down.

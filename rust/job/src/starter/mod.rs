@@ -2,6 +2,7 @@
 
 mod allowances;
 mod choice;
+mod cutter;
 mod drilling;
 mod feed_lines;
 mod feeds;

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use styluscam_geometry::Mesh;
 use styluscam_verify::ToolReach;
 
+use super::cutter::{Cutter, Shape};
 use super::shop::Shop;
-use super::sizes::{self, round, Cutter, Shape};
+use super::sizes::{self, round};
 use super::work::Work;
 use super::workable::{covered, workable};
 use crate::body::{Body, FaceLook, Hollows};

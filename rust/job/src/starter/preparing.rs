@@ -5,11 +5,12 @@ use styluscam_geometry::Tool;
 use styluscam_toolpath::forming::Floors;
 
 use super::allowances::Allowances;
+use super::cutter::{Cutter, Shape};
 use super::drilling::Drilled;
 use super::operations::NAMES;
 use super::roughing::{to_leave, WIDEST};
 use super::shop::Shop;
-use super::sizes::{measured, round, Cutter, Shape};
+use super::sizes::{measured, round};
 use super::stock_nodes::{Front, Standing, StockNodes};
 use super::work::Work;
 use crate::body::Body;

@@ -1,9 +1,10 @@
 //! Roughing of a starter job: the flat tool that clears the stock over the part, and how deep it goes at a time.
 
 use super::allowances::Allowances;
+use super::cutter::{Cutter, Shape};
 use super::drilling::Drilled;
 use super::shop::{Shop, IN_ONE_PIECE};
-use super::sizes::{self, round, Cutter, Shape};
+use super::sizes::{self, round};
 use super::stock_nodes::StockNodes;
 use super::work::Work;
 use crate::body::Body;

@@ -2,10 +2,14 @@
 
 use styluscam_geometry::CutterMaterial;
 
+use super::cutter::Shape;
 use super::part::StarterPart;
-use super::sizes::Shape;
 use crate::cutting::{CuttingTable, CuttingWork};
 
+/// What is cut where nothing is stated.
+pub const MATERIAL: &str = "aluminium";
+/// What cutters are of.
+pub const CUTTER: CutterMaterial = CutterMaterial::Carbide;
 /// Diameters of cutters and styluses in one piece, mm.
 pub const IN_ONE_PIECE: [f64; 14] = [20.0, 16.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.8, 0.5];
 /// Diameters of cutters with inserts, mm: those of ISO 6462, and below.
@@ -24,10 +28,10 @@ pub struct Shop {
 
 impl Shop {
     /// For a part by its length, and by what the cutting data of its material allow.
-    pub fn of(part: &StarterPart<'_>, material: &str, cutter: CutterMaterial) -> Self {
+    pub fn of(part: &StarterPart<'_>) -> Self {
         let (low, high) = part.mesh.bounds();
         let is_large = (high - low).max() > LARGE;
-        Self { with_inserts: if is_large { widest(part.table, material, cutter) } else { 0.0 } }
+        Self { with_inserts: if is_large { widest(part.table, part.material.unwrap_or(MATERIAL)) } else { 0.0 } }
     }
 
     /// Diameters of a shape, mm, the widest first.
@@ -42,10 +46,10 @@ impl Shop {
     }
 }
 
-/// The widest cutter with which a material can be milled roughly and finely, mm; 0 where there are no data.
-fn widest(table: &CuttingTable, material: &str, cutter: CutterMaterial) -> f64 {
+/// The widest cutter by which a material can be milled roughly and finely, mm; 0 where there are no data.
+fn widest(table: &CuttingTable, material: &str) -> f64 {
     let Ok(material) = table.material(material) else { return 0.0 };
-    let of_work = |work| material.entry(cutter, work).map_or(0.0, |entry| entry.sizes(work)[1]);
+    let of_work = |work| material.entry(CUTTER, work).map_or(0.0, |entry| entry.sizes(work)[1]);
     of_work(CuttingWork::RoughMilling).min(of_work(CuttingWork::FinishMilling))
 }
 

@@ -1,6 +1,6 @@
 //! An operation of a starter job before it is text.
 
-use super::sizes::Cutter;
+use super::cutter::Cutter;
 use crate::operations::{Serves, StarterPasses};
 
 /// One operation.

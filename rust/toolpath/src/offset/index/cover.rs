@@ -11,8 +11,7 @@ use super::lanes::Lanes;
 use super::lines::STEEPEST;
 use super::pieces::Part;
 use super::triangles::Triangles;
-use super::width::WIDTH;
-use super::BATCH;
+use super::width::{BATCH, WIDTH};
 
 /// Rounding in a bound, as a share of the lengths and slopes that it is computed from.
 const ROUNDING: f64 = 1e-6;

@@ -19,7 +19,7 @@ pub use lanes::{Bounds, HalfLine, Lanes, Matched, Probe};
 pub use lines::Lines;
 use pieces::{Part, Piece};
 pub use triangles::Triangles;
-pub use width::WIDTH;
+pub use width::{BATCH, WIDTH};
 
 use super::features::{self, Neighbours, Owned};
 
@@ -28,9 +28,6 @@ const WALL: f64 = 1e-3;
 
 /// What rounding makes of a position, as a share of the coordinates.
 const ROUNDING: f64 = 1e-13;
-
-/// Triangles, or as much work, between two looks at whether to stop: some milliseconds.
-pub(super) const BATCH: usize = 1 << 16;
 
 /// Stages of building that progress shows.
 const STAGES: usize = 3;

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use styluscam_geometry::{Mesh, Vector};
 use styluscam_motion::Watch;
 
-use super::BATCH;
+use super::width::BATCH;
 
 /// Empty area of a box worth a cut, as a multiple of the area that the mesh has for each triangle in plan.
 const WASTE: f64 = 8.0;
