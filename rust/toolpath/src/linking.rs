@@ -127,11 +127,11 @@ impl LinkRules<PathPoint> for AlongSurface<'_> {
         if (to.tip - from.tip).xy().norm() > self.longest {
             return None;
         }
-        let floor = |planes: Planes| planes.under(from.tip.z.min(to.tip.z));
+        let lower_end = from.tip.z.min(to.tip.z);
+        let floor = |planes: Planes| planes.under(lower_end);
         let surface = self.surface.above(self.planes.map_or(f64::NEG_INFINITY, floor));
-        let lowest = from.tip.z.min(to.tip.z) - self.longest;
         let run = along_selected(&surface, &[*from, *to], self.deviation, self.narrow)?;
-        if run.iter().any(|point| point.tip.z < lowest) {
+        if run.iter().any(|point| point.tip.z < lower_end - self.longest) {
             return None;
         }
         if self.corner < f64::INFINITY {

@@ -82,7 +82,7 @@ pub fn coverage(
     let faces = faces(subject, selected);
     let asked = Asked::of(subject);
     let area: f64 = faces.iter().map(|face| face.area).sum();
-    let between_passes = area / sweeps.length.max(f64::MIN_POSITIVE);
+    let between_passes = area / sweeps.length_near(subject.mesh).max(f64::MIN_POSITIVE);
     let count = (PER_PASS * area / (between_passes * between_passes)).clamp(POINTS[0], POINTS[1]);
     let of_face = |face: &Face| ((count * face.area / area) as usize).max(OF_A_FACE);
     watch.begin("coverage", faces.iter().map(of_face).sum());
@@ -182,8 +182,6 @@ impl Face {
 /// All moves that are meant to touch, by tool.
 pub(crate) struct Sweeps {
     tools: Vec<(Body, RTree<Sweep>)>,
-    /// Length of those near the part, mm.
-    length: f64,
     /// What may be left at a covered position, mm.
     enough: f64,
 }
@@ -256,13 +254,16 @@ impl Sweeps {
             (body, tree)
         });
         let tools: Vec<(Body, RTree<Sweep>)> = tools.collect();
-        let near =
-            tools.iter().flat_map(|(body, tree)| tree.locate_in_envelope_intersecting(around(subject.mesh, body)));
-        let length = near.map(|sweep| sweep.stroke.length()).sum();
         let used = tools.iter().zip(subject.tools).filter(|((_, tree), _)| tree.size() > 0);
         let smallest = used.map(|(_, tool)| tool.diameter()).fold(f64::INFINITY, f64::min);
         let enough = if smallest.is_finite() { COVERED * smallest } else { 0.0 };
-        Self { tools, length, enough }
+        Self { tools, enough }
+    }
+
+    /// Length of the moves near a mesh, mm.
+    fn length_near(&self, mesh: &Mesh) -> f64 {
+        let near = self.tools.iter().flat_map(|(body, tree)| tree.locate_in_envelope_intersecting(around(mesh, body)));
+        near.map(|sweep| sweep.stroke.length()).sum()
     }
 
     /// Tool and sheet, by the tool's index.

@@ -204,7 +204,7 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>, shop: &Shop)
         Vec::new()
     });
     let part = Part::new((&body, shop), allowances, &drilled);
-    let (Milling { rougher, milled, .. }, between) = milling(((&body, shop), &looks, &done), &part, &roughings);
+    let (Milling { rougher, milled, .. }, between) = milling((&body, &looks, &done), &part, &roughings);
     works.extend(rougher);
     reasons.extend(milled.reasons);
     works.extend(drilled.into_iter().map(|holes| holes.work));
@@ -240,12 +240,12 @@ struct Milling {
 /// level floors first, else with the first of all; and what comes between roughing and finishing, or why finishing cuts deep without.
 /// `done` are the faces that are drilled.
 fn milling(
-    ((body, shop), looks, done): ((&Body<'_>, &Shop), &Hollows, &[u32]),
+    (body, looks, done): (&Body<'_>, &Hollows, &[u32]),
     part: &Part<'_>,
     roughings: &[Work],
 ) -> (Milling, Result<Between, String>) {
     let after = |rougher: Option<&Work>| {
-        let milled = operations::milling((body, shop), looks, done, rougher.map(|work| &work.cutter));
+        let milled = operations::milling((body, part.shop), looks, done, rougher.map(|work| &work.cutter));
         let cuts = part.cuts(rougher, &milled.works);
         Milling { rougher: rougher.cloned(), milled, cuts }
     };

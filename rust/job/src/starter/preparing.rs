@@ -58,7 +58,7 @@ impl Left {
 /// A part whose stock is looked at.
 pub struct Part<'a> {
     nodes: StockNodes<'a>,
-    shop: &'a Shop,
+    pub shop: &'a Shop,
 }
 
 /// Operations between roughing and finishing.

@@ -3,7 +3,7 @@
 use super::allowances::Allowances;
 use super::cutter::{Cutter, Shape};
 use super::drilling::Drilled;
-use super::shop::{Shop, IN_ONE_PIECE};
+use super::shop::{Shop, WIDEST_IN_ONE_PIECE};
 use super::sizes::{self, round};
 use super::stock_nodes::StockNodes;
 use super::work::Work;
@@ -57,8 +57,7 @@ impl Cleared {
     /// The operation; `width`: why the tool is as wide.
     fn work(&self, width: &str, faces: Option<&[u32]>) -> Work {
         let Self { cutter, leave, .. } = *self;
-        let [in_one_piece, ..] = IN_ONE_PIECE;
-        let inserts = if cutter.diameter > in_one_piece { ", one with inserts" } else { "" };
+        let inserts = if cutter.diameter > WIDEST_IN_ONE_PIECE { ", one with inserts" } else { "" };
         let why = vec![
             format!(
                 "the stock is cleared level by level first, with a flat tool of {} mm{inserts}: {width}",
@@ -98,8 +97,8 @@ pub fn roughing(
 ) -> Result<Vec<Work>, String> {
     let nodes = StockNodes::new(body.mesh(), allowances, drilled, NODES);
     let [smaller, larger] = nodes.stock_sides();
-    let [widest, ..] = IN_ONE_PIECE;
-    let sizes = shop.between([(THINNEST * larger).clamp(STURDY, widest), WIDEST * smaller], Shape::Flat);
+    let narrowest = (THINNEST * larger).clamp(STURDY, WIDEST_IN_ONE_PIECE);
+    let sizes = shop.between([narrowest, WIDEST * smaller], Shape::Flat);
     let tried: Vec<Cleared> = sizes.filter_map(|diameter| cleared(&nodes, diameter)).collect();
     let most = tried.iter().map(|cleared| cleared.volume).fold(0.0, f64::max);
     let enough = tried.iter().position(|cleared| cleared.volume > 0.0 && cleared.volume >= ENOUGH * most);

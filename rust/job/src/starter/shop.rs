@@ -12,6 +12,8 @@ pub const MATERIAL: &str = "aluminium";
 pub const CUTTER: CutterMaterial = CutterMaterial::Carbide;
 /// Diameters of cutters and styluses in one piece, mm.
 pub const IN_ONE_PIECE: [f64; 14] = [20.0, 16.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.8, 0.5];
+/// The widest of them, mm.
+pub const WIDEST_IN_ONE_PIECE: f64 = IN_ONE_PIECE[0];
 /// Diameters of cutters with inserts, mm: those of ISO 6462, and below.
 const WITH_INSERTS: [f64; 7] = [100.0, 80.0, 63.0, 50.0, 40.0, 32.0, 25.0];
 /// The widest ball with inserts, mm.

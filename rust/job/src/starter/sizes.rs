@@ -3,7 +3,7 @@
 use styluscam_geometry::{Bvh, Mesh};
 
 use super::cutter::{Cutter, Shape};
-use super::shop::{Shop, IN_ONE_PIECE};
+use super::shop::{Shop, IN_ONE_PIECE, WIDEST_IN_ONE_PIECE};
 use super::workable::workable;
 use crate::body::{Body, FaceLook, Hollows};
 
@@ -64,8 +64,7 @@ fn smaller_side(mesh: &Mesh) -> f64 {
 /// Smallest diameter that makes sense for the part's size, mm; any cutter with inserts does.
 fn thinnest(mesh: &Mesh) -> f64 {
     let (low, high) = mesh.bounds();
-    let [widest, ..] = IN_ONE_PIECE;
-    (THINNEST * (high.x - low.x).max(high.y - low.y)).min(widest)
+    (THINNEST * (high.x - low.x).max(high.y - low.y)).min(WIDEST_IN_ONE_PIECE)
 }
 
 /// Of some sizes, the widest first.
