@@ -2987,6 +2987,10 @@ Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>depth in the stock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>distances</source>
         <translation type="unfinished"></translation>
     </message>
@@ -3323,6 +3327,10 @@ Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>shank and holder in the stock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>shortening links</source>
         <translation type="unfinished"></translation>
     </message>
@@ -3376,6 +3384,10 @@ Range: 0.01 to 100 mm</source>
     </message>
     <message>
         <source>stock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stock as it stands</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
