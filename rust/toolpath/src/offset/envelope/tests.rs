@@ -1,13 +1,15 @@
 //! The envelope against all triangles, one by one, and against closed forms.
 
-#[path = "../../../tests/common/mod.rs"]
+#[path = "../../../tests/it/common/mod.rs"]
+#[allow(dead_code)] // some of it serves the tests from outside the crate alone
 pub(in crate::offset) mod common;
+pub(in crate::offset) mod surfaces;
 
 use common::dice::Dice;
-use common::surfaces::{Surface, MIDDLE, SURFACES};
 use common::tools::{Kind, KINDS};
 use proptest::prelude::*;
 use styluscam_geometry::{kinds, ModelFace, ProfileDocument, SheetLaw, ToolDocument};
+use surfaces::{Surface, MIDDLE, SURFACES};
 
 use super::super::search::Eight;
 use super::*;

@@ -4,8 +4,8 @@ use styluscam_geometry::Vector;
 use styluscam_motion::Watch;
 
 use super::super::envelope::tests::common::dice::Dice;
-use super::super::envelope::tests::common::surfaces::{Surface, MIDDLE, SURFACES};
 use super::super::envelope::tests::common::tools::{Kind, KINDS};
+use super::super::envelope::tests::surfaces::{Surface, MIDDLE, SURFACES};
 use super::super::search::Keeping;
 use super::super::{Envelope, Index};
 use super::Slice;
