@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 import styluscam as sc
+from long_cases import some_long
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -166,10 +167,7 @@ NEW_OPERATION, NEW_PROCESS = "docs/howto/add-an-operation.md", "docs/howto/add-a
 """Pages whose changes test_new_kind.py builds together: they are compiled alone by `make test-long`."""
 
 
-@pytest.mark.parametrize(
-    "page",
-    [pytest.param(page, marks=[pytest.mark.long] if page in (NEW_OPERATION, NEW_PROCESS) else []) for page in HOWTO],
-)
+@pytest.mark.parametrize("page", some_long(HOWTO, {NEW_OPERATION, NEW_PROCESS}))
 def test_what_a_page_adds_compiles(page: str) -> None:
     if (change := change_of(page)).files:
         change.cargo("check")

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from outcomes import run_part, turn_up
 
+from long_cases import some_long
+
 HERE = Path(__file__).resolve().parent
 SLICE = HERE.parents[1] / "fixtures" / "corpus" / "slice"
 PARTS = {part["name"]: part for part in json.loads((SLICE / "parts.json").read_text(encoding="utf-8"))}
@@ -31,9 +33,7 @@ LONG = {
 """Parts whose roughing takes the better part of a minute to plan and to verify."""
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.long] if name in LONG else []) for name in PARTS]
-)
+@pytest.mark.parametrize("name", some_long(PARTS, LONG))
 def test_a_part_becomes_a_program_or_one_true_sentence(name, tmp_path):
     (row,) = run_part(PARTS[name], SLICE, tmp_path, OPTIONS)
     assert row.wrong == "", f"{row.outcome}: {row.detail} {row.kinds}"

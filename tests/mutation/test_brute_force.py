@@ -11,6 +11,7 @@ import styluscam as sc
 from brute_force import Solid
 from convex_tool import Tool
 from gcode import read
+from long_cases import some_long
 
 from .cases import document, lopsided, roof, stack, terrain
 
@@ -86,9 +87,7 @@ LONG = {"clothoid over a sheet"}
 
 
 @pytest.mark.parametrize("part", SEGMENTS)
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.long] if name in LONG else []) for name in TOOLS]
-)
+@pytest.mark.parametrize("name", some_long(TOOLS, LONG))
 def test_gouge_and_excess_are_those_of_the_brute_force(name: str, part: str) -> None:
     job, tool, solid = subject_of(name, part)
     for low, high in SEGMENTS[part]:
