@@ -199,3 +199,18 @@ def test_passes_along_the_opposite_wall_of_a_slot_serve_their_own_wall(width: fl
     assert not sc.verify(text, job).findings
     one_wall = sc.verify(text.replace("X-0.", "X0."), job).findings
     assert len([finding for finding in one_wall if finding["kind"] == "missing-pass"]) >= 4
+
+
+STEPPED = [(0.01, 30.0), (10.0, 30.0), (10.0, 15.0), (25.0, 15.0), (25.0, 0.0), (40.0, 0.0)]
+
+
+@pytest.mark.parametrize("step", [1.66, 2.08, 2.44, 2.98])
+def test_no_level_is_wanted_while_a_ball_rolls_over_the_edge_of_a_shoulder(step: float) -> None:
+    """Between the floor of the upper wall and the top of the lower one the tip goes down by its radius beside neither."""
+    vertices, triangles = turned(STEPPED, sides=48)
+    job = levels_job((vertices, triangles, np.repeat([1, 2, 3, 4, 5], 96)), ["Face2", "Face4"], step, 1.0, "ball")
+    text = sc.post(sc.plan(job)).text
+    assert not sc.verify(text, job).findings
+    for low, high in ((9.0, 12.0), (18.0, 18.0 + 1.9 * step)):
+        cut, left = without(text, "missing-level", low, high)
+        assert left and "missing-level" in {finding["kind"] for finding in sc.verify(cut, job).findings}

@@ -188,9 +188,11 @@ impl Look<'_> {
         let passes = contact_lines::passes(self.passes, self.contacts);
         let (Some(lowest), Some(highest)) = (passes.first(), passes.last()) else { return Vec::new() };
         let touching = self.touching();
-        let touches_between = |low: f64, high: f64| {
-            let mut spots = touching.iter().filter(|(value, _)| *value > low && *value < high);
-            spots.any(|(_, spot)| self.holds_feature(spot))
+        let touches_amidst = |[low, high]: [f64; 2], step: f64| {
+            let amidst = 0.3 * (high - low);
+            let mut spots = touching.iter().filter(|(value, _)| *value > low + amidst && *value < high - amidst);
+            let is_at_end = |spot: &Spot| [low, high].into_iter().any(|pass| self.is_last(pass, spot, step));
+            spots.any(|(_, spot)| self.holds_feature(spot) && !is_at_end(spot))
         };
         let wide = |gap: f64, steps: f64, step: f64| gap > steps * step + ROUGH;
         let kind = |is_above: bool| match (scalar.kind(), is_above) {
@@ -204,7 +206,7 @@ impl Look<'_> {
             let is_above = low.first.index > high.first.index;
             let later = if is_above { low } else { high };
             let step = pitch.between(low.value, high.value);
-            let touches = || touches_between(low.value + 0.3 * gap, high.value - 0.3 * gap);
+            let touches = || touches_amidst([low.value, high.value], step);
             (wide(gap, WIDE, step) && touches()).then_some((later.first, gap, step, kind(is_above)))
         });
         let farthest = |beyond: &dyn Fn(f64) -> f64, steps: f64, step: f64| {
@@ -394,6 +396,25 @@ impl Look<'_> {
         let reaches_along = |length: f64| self.reaches(spot, spot.up.cross(&across), length, TURNED);
         let mut lengths = self.scalar().features(feature, step.norm()).into_iter();
         lengths.any(|[across, along]| reaches_across(across) && reaches_along(along))
+    }
+
+    /// Whether the tool touches the face of a spot where a pass lies, and the face ends before the next one would: a ball that rolls
+    /// over the edge of a shoulder touches neither wall over the height of its radius.
+    fn is_last(&self, pass: f64, spot: &Spot, step: f64) -> bool {
+        let value = |position: Vector| self.scalar().value(self.body.tip(position).into());
+        let at = value(spot.position);
+        let Some(next) = self.next(spot) else { return false };
+        let to = |there: f64| next * ((there - at) / (value(spot.position + next) - at));
+        let beyond = pass + APART * step * (at - pass).signum();
+        let is_between = (beyond - at) * (at - pass) > 0.0;
+        is_between
+            && self.clearance(spot.position + to(pass)).abs() <= TOUCH
+            && !self.selects_near(spot.point + to(beyond) - ROOM * spot.up)
+    }
+
+    /// Whether what is nearest to a point is what the passes are for.
+    fn selects_near(&self, point: Vector) -> bool {
+        self.expectation.selects(self.subject.bvh.nearest(self.subject.mesh, point).1)
     }
 
     fn scalar(&self) -> &dyn Scalar {
