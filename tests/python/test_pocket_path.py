@@ -126,6 +126,8 @@ def test_an_open_edge_needs_no_entry_and_stock_is_all_that_counts():
         (rectangle(10.0, 10.0), {"growth_deg": -20.0}, sc.GeometryError, "growth_deg"),
         (rectangle(10.0, 10.0), {"direction": "up"}, sc.GeometryError, "direction"),
         (rectangle(10.0, 10.0), {"stock": [[50.0, 0.0], [60.0, 0.0], [60.0, 9.0]]}, sc.PlanError, "stock"),
+        (rectangle(3000.0, 10.0), {}, sc.GeometryError, "tool_radius"),
+        (rectangle(10.0, 2e6), {}, sc.GeometryError, "boundary[0]"),
         ([[0.0, 0.0], [10.0, 0.0], [20.0, 0.0]], {}, sc.GeometryError, "boundary"),
         ([[0.0, 0.0], [10.0, math.inf], [20.0, 0.0]], {}, sc.GeometryError, "boundary[1]"),
     ],
@@ -166,6 +168,16 @@ def test_the_bound_holds_for_small_tools_far_from_the_origin(radius, bound):
     assert path.engagement_max_deg < bound + 0.5 and path.uncleared_area < 1e-3 * path.reachable_area
     clearance = min(float(run.clearances.min()) for run in path.engagement if run.clearances.size)
     assert radius - 1e-6 < clearance < radius + 5e-3
+
+
+def test_a_pocket_of_10_m_is_a_small_one_four_times_as_large_and_far_from_the_origin():
+    small = sc.pocket_path(rectangle(1250.0, 240.0), tool_radius=100.0, engagement_deg=60.0)
+    boundary = np.array(rectangle(5000.0, 960.0)) + np.array([9000.0, -40_000.0])
+    large = sc.pocket_path(boundary, tool_radius=400.0, engagement_deg=60.0)
+    assert [kind for _, kind in large.runs] == [kind for _, kind in small.runs]
+    for (ours, _), (theirs, _) in zip(large.runs, small.runs, strict=True):
+        assert np.allclose(ours[:, :2] - [9000.0, -40_000.0], 4.0 * theirs[:, :2], rtol=0.0, atol=1e-9)
+    assert large.engagement_max_deg < 60.5 and large.uncleared_area < 1e-3 * large.reachable_area
 
 
 def test_a_tool_that_is_too_large_is_named_with_its_own_radius():

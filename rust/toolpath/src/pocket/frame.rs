@@ -2,17 +2,16 @@
 //!
 //! Chords, the grid and what is kept from walls are fixed lengths there. They have to be small beside the tool's radius and beside
 //! the stepover, so small tools and small angles are planned larger than they are: of a tool of 0.3 mm the angle was up to 10 deg above the bound
-//! without that.
+//! without that. Pockets over 4 m are planned smaller than they are, with tools that are large there as well.
 
 use super::error::PocketError;
+use super::ground::FARTHEST;
 use super::request::{Cleared, EntryRule, Pocket, PocketPath, Shape};
 
 /// The tool's radius in the plane, at least, mm.
 const RADIUS: f64 = 2.5;
 /// The stepover in the plane, at least, mm.
 const STEPOVER: f64 = 0.3;
-/// Coordinates in the plane stay below this, mm: larger pockets are planned less large.
-const FARTHEST: f64 = 2000.0;
 /// Chips thinner than this do not count, mm (docs/concepts/engagement.md): what earlier tools swept counts as that much wider.
 pub const CHIP: f64 = 1e-3;
 
@@ -27,22 +26,42 @@ pub struct Frame {
     side: f64,
 }
 
+/// The middle of a pocket, and half its length or width, mm, the larger one.
+fn extent(pocket: &Pocket<'_>) -> ([f64; 2], f64) {
+    let outlines = pocket.shape.outlines();
+    let points = || outlines.iter().flat_map(|(_, outline)| outline.iter());
+    let range = |i: usize| {
+        let low = points().fold(f64::INFINITY, |low, point| low.min(point[i]));
+        let high = points().fold(f64::NEG_INFINITY, |high, point| high.max(point[i]));
+        [low, high]
+    };
+    let ranges = [range(0), range(1)];
+    let half = ranges.iter().fold(pocket.radius, |half: f64, [low, high]| half.max(0.5 * (high - low)));
+    (ranges.map(|[low, high]| libm::round(0.5 * (low + high))), half)
+}
+
+/// Refuses a tool that would be too small in the plane of a large pocket.
+pub fn check_size(pocket: &Pocket<'_>) -> Result<(), PocketError> {
+    let (_, half) = extent(pocket);
+    let (key, value, allowed) =
+        ("tool_radius".to_owned(), pocket.radius, "1.25 mm or more for each metre of a pocket longer than 4 m");
+    // a power of two smaller than needed halves it at most
+    let is_held = half <= FARTHEST || value >= 2.0 * RADIUS * half / FARTHEST;
+    if is_held {
+        Ok(())
+    } else {
+        Err(PocketError::Number { key, value, allowed })
+    }
+}
+
 impl Frame {
     pub fn new(pocket: &Pocket<'_>) -> Self {
-        let outlines = pocket.shape.outlines();
-        let points = || outlines.iter().flat_map(|(_, outline)| outline.iter());
-        let range = |i: usize| {
-            let low = points().fold(f64::INFINITY, |low, point| low.min(point[i]));
-            let high = points().fold(f64::NEG_INFINITY, |high, point| high.max(point[i]));
-            [low, high]
-        };
-        let ranges = [range(0), range(1)];
-        let middle = ranges.map(|[low, high]| libm::round(0.5 * (low + high)));
-        let half = ranges.iter().fold(pocket.radius, |half: f64, [low, high]| half.max(0.5 * (high - low)));
+        let (middle, half) = extent(pocket);
         let stepover = pocket.radius * (1.0 - libm::cos(pocket.angle));
-        let wanted = (RADIUS / pocket.radius).max(STEPOVER / stepover).min(FARTHEST / half);
-        let scale = libm::exp2(libm::ceil(libm::log2(wanted.max(1.0))));
-        Self { middle, scale, side: if pocket.climb { 1.0 } else { -1.0 } }
+        let wanted = (RADIUS / pocket.radius).max(STEPOVER / stepover).max(1.0);
+        let most = FARTHEST / half;
+        let power = if most < 1.0 { libm::floor(libm::log2(most)) } else { libm::ceil(libm::log2(wanted.min(most))) };
+        Self { middle, scale: libm::exp2(power), side: if pocket.climb { 1.0 } else { -1.0 } }
     }
 
     /// A path of the plane, here.

@@ -10,8 +10,10 @@ use super::polygons::{signed_area, Kernel, Point, Polygons};
 use super::request::{Cleared, Pocket, Shape};
 use super::window::wider;
 
-/// Coordinates lie within this, mm: on the grid of the booleans that leaves 4 nm.
+/// Coordinates of the plane lie within this, mm: on the grid of the booleans that leaves 4 nm.
 pub const FARTHEST: f64 = 2000.0;
+/// Those of a pocket, before it comes to the plane, lie within this, mm: beyond, they are no lengths of a machine.
+const OUTERMOST: f64 = 1e6;
 /// What is left on walls for the chords of their arcs and for the arcs that are put back, mm.
 const GAP: f64 = 3e-3;
 /// What of the goal's rim is not looked for, mm: no more than chords are off. A rim that comes to a wall is nearly along it, and of a strip of
@@ -273,7 +275,7 @@ pub fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
         let key = format!("cleared[{i}]");
         number(&key, path.radius, (0.0..=FARTHEST).contains(&path.radius), "a tool's radius up to 2000 mm")?;
         for value in path.points.iter().flatten() {
-            number(&key, *value, value.abs() <= FARTHEST, "finite numbers within +/-2000")?;
+            number(&key, *value, value.abs() <= OUTERMOST, "finite numbers within +/-1000000")?;
         }
     }
     let stock = pocket.shape.stock().unwrap_or(&[]).iter().enumerate();
@@ -282,7 +284,8 @@ pub fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
     for (key, outline) in outlines {
         for (i, point) in outline.iter().enumerate() {
             for value in point {
-                number(&format!("{key}[{i}]"), *value, value.abs() <= FARTHEST, "finite numbers within +/-2000")?;
+                let key = format!("{key}[{i}]");
+                number(&key, *value, value.abs() <= OUTERMOST, "finite numbers within +/-1000000")?;
             }
         }
         let is_curved = outline.iter().any(|[_, _, bulge]| *bulge != 0.0);
