@@ -571,3 +571,12 @@ def test_the_roughing_tool_gets_to_where_the_finishing_tool_would_cut_too_deep(c
     document = sc.Job.read(job).document
     assert document["tools"]["rougher"]["profile"]["diameter"] <= 6.0
     assert "semi-finisher" not in document["tools"]
+
+
+def test_no_rows_are_proposed_over_upright_walls_alone(parts, cli):
+    """A top too rough for any tool is left out: rows of balls over the walls around it would cut nothing."""
+    noise = np.random.default_rng(2).uniform(0.0, 1.5, 81 * 81)
+    hills = lambda x, y: 12.0 + 5.0 * np.sin(x / 3.0) * np.cos(y / 4.0) + noise  # noqa: E731
+    document, reasons = made(parts, cli, "rough", mesh_of(hills, lambda x, y: 0.0 * x, size=30.0, nodes=81))
+    assert "has too little room in these: Face1" in reasons
+    assert [operation["id"] for operation in document["operations"]] == ["roughing", "walls"]

@@ -28,6 +28,8 @@ const MIDDLE: f64 = 0.5;
 const BESIDE: f64 = 0.5;
 /// Distance between rows, in diameters: what stands between them is about what is left for finishing.
 const ROWS: f64 = 0.2;
+/// Rows are over slopes on more than this share of the nodes where they stand on the part.
+const SLOPES: f64 = 0.1;
 /// Operations between roughing and finishing at most.
 const STEPS: usize = 3;
 
@@ -132,7 +134,8 @@ impl<'a> Part<'a> {
             measured(*depth)
         );
         let is_on_floors = deep.iter().any(|(passes, _)| passes.cutter.shape == Shape::Flat);
-        let steps = if is_on_floors && !on_floors { Vec::new() } else { self.steps(cuts, rougher) };
+        let are_possible = (on_floors || !is_on_floors) && cuts.are_over_slopes();
+        let steps = if are_possible { self.steps(cuts, rougher) } else { Vec::new() };
         let works = |chosen: Vec<&Step>| -> Vec<Work> {
             chosen.iter().enumerate().map(|(number, step)| step.work(number, finishing, &words)).collect()
         };
@@ -238,6 +241,13 @@ impl Part<'_> {
 }
 
 impl Cuts {
+    /// Whether enough of what is finished is sloped or level for rows to go there before: beside upright walls they cut nothing.
+    fn are_over_slopes(&self) -> bool {
+        let standing = || self.finishing.iter().flat_map(|passes| passes.standing.iter().flatten());
+        let on_slopes = standing().filter(|at| !at.is_beside_wall).count();
+        on_slopes as f64 > SLOPES * standing().count() as f64
+    }
+
     /// The operations that cut too deep at once through some stock, each with its largest depth, mm.
     fn too_deep(&self, heights: &Heights, part: &Part<'_>) -> Vec<(&Passes, f64)> {
         let after_walls = lower(heights, &self.walls);

@@ -61,6 +61,8 @@ pub struct Standing {
     pub tip: f64,
     /// The face that it touches.
     pub face: u32,
+    /// Whether what it touches is upright.
+    pub is_beside_wall: bool,
 }
 
 impl<'a> StockNodes<'a> {
@@ -157,7 +159,8 @@ impl<'a> StockNodes<'a> {
         let mut standing = |[x, y]: [f64; 2]| {
             let at = surface.at(x, y, &mut hint)?;
             let face = *self.mesh.faces().get(at.triangle as usize)?;
-            Some(Standing { tip: at.tip.z.max(self.foot), face })
+            let is_beside_wall = self.mesh.normal(at.triangle as usize).z.abs() < UPRIGHT;
+            Some(Standing { tip: at.tip.z.max(self.foot), face, is_beside_wall })
         };
         self.positions(0).zip(&self.drilled).map(|(at, is_drilled)| standing(at).filter(|_| !is_drilled)).collect()
     }
