@@ -129,8 +129,11 @@ fn cleared(nodes: &StockNodes<'_>, diameter: f64) -> Option<Cleared> {
     let leave = to_leave(diameter);
     let tool = cutter.made()?;
     let front = nodes.front(&tool, 0.0);
-    let tips = nodes.tips(&nodes.envelope(&tool, leave), front.reach());
-    let depth = nodes.top - tips.iter().copied().fold(nodes.top, f64::min);
+    let envelope = nodes.envelope(&tool, leave);
+    let tips = nodes.tips(&envelope, front.reach());
+    // where nodes are farther apart than the tool is wide, none of those beside the stock is among them
+    let beside = if front.reach() == 0 { nodes.tips(&envelope, 1) } else { Vec::new() };
+    let depth = nodes.top - tips.iter().chain(&beside).copied().fold(nodes.top, f64::min);
     let volume = nodes.volume(nodes.swept(&tips, &front));
     (depth > leave).then_some(Cleared { cutter, volume, leave, depth })
 }
