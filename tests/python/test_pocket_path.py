@@ -128,6 +128,7 @@ def test_an_open_edge_needs_no_entry_and_stock_is_all_that_counts():
         (rectangle(10.0, 10.0), {"stock": [[50.0, 0.0], [60.0, 0.0], [60.0, 9.0]]}, sc.PlanError, "stock"),
         (rectangle(3000.0, 10.0), {}, sc.GeometryError, "tool_radius"),
         (rectangle(10.0, 2e6), {}, sc.GeometryError, "boundary[0]"),
+        (rectangle(10.0, 10.0), {"stock": rectangle(5000.0, 10.0)}, sc.GeometryError, "stock[0]"),
         ([[0.0, 0.0], [10.0, 0.0], [20.0, 0.0]], {}, sc.GeometryError, "boundary"),
         ([[0.0, 0.0], [10.0, math.inf], [20.0, 0.0]], {}, sc.GeometryError, "boundary[1]"),
     ],

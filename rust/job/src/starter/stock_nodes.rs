@@ -159,7 +159,7 @@ impl<'a> StockNodes<'a> {
         let mut standing = |[x, y]: [f64; 2]| {
             let at = surface.at(x, y, &mut hint)?;
             let face = *self.mesh.faces().get(at.triangle as usize)?;
-            let is_beside_wall = self.mesh.normal(at.triangle as usize).z.abs() < UPRIGHT;
+            let is_beside_wall = self.is_upright(at.triangle as usize);
             Some(Standing { tip: at.tip.z.max(self.foot), face, is_beside_wall })
         };
         self.positions(0).zip(&self.drilled).map(|(at, is_drilled)| standing(at).filter(|_| !is_drilled)).collect()
@@ -205,11 +205,14 @@ impl<'a> StockNodes<'a> {
         beside
     }
 
+    fn is_upright(&self, triangle: usize) -> bool {
+        self.mesh.normal(triangle).z.abs() < UPRIGHT
+    }
+
     /// Points along the sides of the upright triangles of some faces in plan, no farther apart than nodes are, mm.
     fn along_walls<'f>(&'f self, faces: &'f [u32]) -> impl Iterator<Item = [f64; 2]> + 'f {
         let is_named = |triangle: &usize| self.mesh.faces().get(*triangle).is_some_and(|face| faces.contains(face));
-        let is_upright = |triangle: &usize| self.mesh.normal(*triangle).z.abs() < UPRIGHT;
-        let upright = (0..self.mesh.triangles().len()).filter(is_upright).filter(is_named);
+        let upright = (0..self.mesh.triangles().len()).filter(|triangle| self.is_upright(*triangle)).filter(is_named);
         upright.flat_map(|triangle| sides(self.mesh, triangle)).flat_map(|[from, to]| {
             let count = ((to - from).xy().norm() / self.apart).ceil().max(1.0);
             (0..=count as usize).map(move |i| (from + (to - from) * (i as f64 / count)).xy().into())

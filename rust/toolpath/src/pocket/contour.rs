@@ -3,7 +3,7 @@
 use styluscam_geometry::PlanePiece;
 
 use super::error::PocketError;
-use super::ground::{chords, path_chords, FARTHEST};
+use super::ground::{chords, number, path_chords, FARTHEST};
 use super::growth::WALL;
 use super::material::Material;
 use super::polygons::{signed_area, Kernel, Point, Polygons};
@@ -122,10 +122,6 @@ impl Contour<'_> {
     }
 
     fn check(&self) -> Result<(), PocketError> {
-        let number = |key: &str, value: f64, ok: bool, allowed| match ok {
-            true => Ok(()),
-            false => Err(PocketError::Number { key: key.to_owned(), value, allowed }),
-        };
         number("width", self.width, (NARROWEST..=FARTHEST).contains(&self.width), "0.01 to 2000 mm")?;
         number("tool_radius", self.radius, (0.01..=500.0).contains(&self.radius), "0.01 to 500 mm")?;
         for (i, value) in

@@ -5,13 +5,16 @@
 //! without that. Pockets over 4 m are planned smaller than they are, with tools that are large there as well.
 
 use super::error::PocketError;
-use super::ground::FARTHEST;
+use super::ground::{number, FARTHEST};
 use super::request::{Cleared, EntryRule, Pocket, PocketPath, Shape};
 
 /// The tool's radius in the plane, at least, mm.
 const RADIUS: f64 = 2.5;
 /// The stepover in the plane, at least, mm.
 const STEPOVER: f64 = 0.3;
+/// What else there is, stock and what earlier tools cleared, is no farther from the pocket's middle than this, mm, in the
+/// plane of a large one.
+const SURROUNDINGS: f64 = 2.0 * FARTHEST;
 /// Chips thinner than this do not count, mm (docs/concepts/engagement.md): what earlier tools swept counts as that much wider.
 pub const CHIP: f64 = 1e-3;
 
@@ -40,28 +43,41 @@ fn extent(pocket: &Pocket<'_>) -> ([f64; 2], f64) {
     (ranges.map(|[low, high]| libm::round(0.5 * (low + high))), half)
 }
 
-/// Refuses a tool that would be too small in the plane of a large pocket.
-pub fn check_size(pocket: &Pocket<'_>) -> Result<(), PocketError> {
-    let (_, half) = extent(pocket);
-    let (key, value, allowed) =
-        ("tool_radius".to_owned(), pocket.radius, "1.25 mm or more for each metre of a pocket longer than 4 m");
-    // a power of two smaller than needed halves it at most
-    let is_held = half <= FARTHEST || value >= 2.0 * RADIUS * half / FARTHEST;
-    if is_held {
-        Ok(())
-    } else {
-        Err(PocketError::Number { key, value, allowed })
-    }
-}
-
 impl Frame {
-    pub fn new(pocket: &Pocket<'_>) -> Self {
+    /// The plane for a pocket.
+    ///
+    /// # Errors
+    /// A tool that would be too small in the plane of a large pocket, and stock or cleared paths too far from it for the arithmetic.
+    pub fn new(pocket: &Pocket<'_>) -> Result<Self, PocketError> {
         let (middle, half) = extent(pocket);
         let stepover = pocket.radius * (1.0 - libm::cos(pocket.angle));
         let wanted = (RADIUS / pocket.radius).max(STEPOVER / stepover).max(1.0);
         let most = FARTHEST / half;
         let power = if most < 1.0 { libm::floor(libm::log2(most)) } else { libm::ceil(libm::log2(wanted.min(most))) };
-        Self { middle, scale: libm::exp2(power), side: if pocket.climb { 1.0 } else { -1.0 } }
+        let frame = Self { middle, scale: libm::exp2(power), side: if pocket.climb { 1.0 } else { -1.0 } };
+        // a power of two smaller than needed halves it at most
+        let is_large_enough = most >= 1.0 || pocket.radius * most >= 2.0 * RADIUS;
+        number(
+            "tool_radius",
+            pocket.radius,
+            is_large_enough,
+            "1.25 mm or more for each metre of a pocket longer than 4 m",
+        )?;
+        frame.check_surroundings(pocket).map(|()| frame)
+    }
+
+    /// Refuses stock and cleared paths that are too far from the pocket.
+    fn check_surroundings(&self, pocket: &Pocket<'_>) -> Result<(), PocketError> {
+        let most = SURROUNDINGS / self.scale.min(1.0);
+        let stock = pocket.shape.stock().unwrap_or(&[]).iter().enumerate();
+        let stock = stock.map(|(i, outline)| (format!("stock[{i}]"), outline));
+        let cleared = pocket.cleared.iter().enumerate().map(|(i, path)| (format!("cleared[{i}]"), &path.points));
+        for (key, points) in stock.chain(cleared) {
+            for (value, middle) in points.iter().flat_map(|[x, y, _]| [x, y].into_iter().zip(self.middle)) {
+                number(&key, *value, (value - middle).abs() <= most, "4 m from the pocket's middle or less")?;
+            }
+        }
+        Ok(())
     }
 
     /// A path of the plane, here.

@@ -250,15 +250,17 @@ fn flat(piece: &PlanePiece) -> Vec<Point> {
     points
 }
 
+/// Refuses a number by its key where it is not what is allowed.
+pub fn number(key: &str, value: f64, ok: bool, allowed: &'static str) -> Result<(), PocketError> {
+    if ok {
+        Ok(())
+    } else {
+        Err(PocketError::Number { key: key.to_owned(), value, allowed })
+    }
+}
+
 /// Refuses what is no pocket and no tool.
 pub fn check(pocket: &Pocket<'_>) -> Result<(), PocketError> {
-    let number = |key: &str, value: f64, ok: bool, allowed| {
-        if ok {
-            Ok(())
-        } else {
-            Err(PocketError::Number { key: key.to_owned(), value, allowed })
-        }
-    };
     let r = pocket.radius;
     number("tool_radius", r, (0.01..=500.0).contains(&r), "0.01 to 500 mm")?;
     let degrees = pocket.angle.to_degrees();

@@ -37,7 +37,7 @@ mod tests;
 
 use styluscam_motion::Watch;
 
-use frame::{check_size, Frame, Framed};
+use frame::{Frame, Framed};
 use ground::check;
 
 pub use areas::CentreArea;
@@ -53,8 +53,7 @@ pub use request::{Cleared, EntryForm, EntryRule, Pocket, PocketPath, PocketRun, 
 /// What is not a pocket or a tool, a tool that fits nowhere; `Cancelled` when the watch is cancelled.
 pub fn pocket_path(pocket: &Pocket<'_>, watch: &Watch) -> Result<PocketPath, PocketError> {
     check(pocket)?;
-    check_size(pocket)?;
-    let frame = Frame::new(pocket);
+    let frame = Frame::new(pocket)?;
     let framed = Framed::new(pocket, frame);
     let path = with_finish(&framed.pocket(), watch).map_err(|error| frame.error(error))?;
     Ok(frame.back(path))
