@@ -19,10 +19,11 @@ from numpy.typing import NDArray
 
 import styluscam as sc
 
-STOP = 0.2
-"""Long work stops within this of a cancel, s."""
-SLACK = 3.0
-"""What a machine with other work may add, s."""
+STOP = 0.5
+"""Long work stops within this of a cancel: processor time of all threads, s, which other work on the machine hardly
+changes."""
+PREPARED = 2.0
+"""What it takes at most to look at the part before planning begins, which a cancel waits for: processor time, s."""
 BALL = {"kind": "ball", "diameter": 6.0}
 TOOL = {"profile": BALL}
 
@@ -143,12 +144,12 @@ def test_an_exception_in_progress_comes_through(wide_part: sc.Part, many: Floats
 
 
 def stopped_after(work: Callable[[sc.CancelToken], object], wait: float = 0.3) -> float:
-    """Seconds from a cancel on another thread, `wait` s into the work, to its end."""
+    """Processor time from a cancel on another thread, `wait` s into the work, to its end, s."""
     token = sc.CancelToken()
     asked: list[float] = []
 
     def stop() -> None:
-        asked.append(time.monotonic())
+        asked.append(time.process_time())
         token.cancel()
 
     timer = threading.Timer(wait, stop)
@@ -159,27 +160,17 @@ def stopped_after(work: Callable[[sc.CancelToken], object], wait: float = 0.3) -
     finally:
         timer.cancel()
     assert token.cancelled
-    return time.monotonic() - asked[0]
-
-
-def soonest_stop(work: Callable[[sc.CancelToken], object]) -> float:
-    """The least of a few: other work on the machine delays any of them, but hardly all."""
-    soonest = np.inf
-    for _ in range(5):
-        soonest = min(soonest, stopped_after(work))
-        if soonest < STOP:
-            break
-    return soonest
+    return time.process_time() - asked[0]
 
 
 def test_a_token_stops_drop_cutter(wide_part: sc.Part, many: Floats) -> None:
     tool = sc.Tool.from_dict(TOOL)
-    assert soonest_stop(lambda token: sc.drop_cutter(wide_part, tool, many, cancel=token)) < STOP
+    assert stopped_after(lambda token: sc.drop_cutter(wide_part, tool, many, cancel=token)) < STOP
 
 
 def test_a_token_stops_a_waterline(wide_part: sc.Part) -> None:
     tool = sc.Tool.from_dict({"profile": {"kind": "ball", "diameter": 0.2}})
-    assert soonest_stop(lambda token: sc.waterline(wide_part, tool, 1.0, tolerance=1e-6, cancel=token)) < STOP
+    assert stopped_after(lambda token: sc.waterline(wide_part, tool, 1.0, tolerance=1e-6, cancel=token)) < STOP
 
 
 def test_a_token_stops_the_first_call_of_a_large_part() -> None:
@@ -190,8 +181,8 @@ def test_a_token_stops_the_first_call_of_a_large_part() -> None:
     cells = [[corner, corner + 1, corner + side + 1], [corner, corner + side + 1, corner + side]]
     triangles = np.concatenate([np.stack(cell, axis=1) for cell in cells])
     tool = sc.Tool.from_dict(TOOL)
-    parts = [sc.Part.from_mesh(vertices, triangles) for _ in range(3)]
-    assert min(stopped_after(lambda token: first_call(parts.pop(), tool, token), 0.05) for _ in range(3)) < STOP
+    part = sc.Part.from_mesh(vertices, triangles)
+    assert stopped_after(lambda token: first_call(part, tool, token), 0.05) < STOP
 
 
 def first_call(part: sc.Part, tool: sc.Tool, token: sc.CancelToken) -> None:
@@ -204,7 +195,7 @@ def test_a_token_stops_planning(kind: str, part_of: Callable[[str], sc.Part]) ->
     document = job_document("vwaf", kind, BALL, smallest_feature=0.1)
     document["operations"][0].update({"step": {"height": 0.01}} if kind == "z-level" else {"stepover": 0.01})
     job = sc.Job.from_dict(document, part=part_of("vwaf"))
-    assert stopped_after(lambda token: sc.plan(job, cancel=token)) < STOP + SLACK
+    assert stopped_after(lambda token: sc.plan(job, cancel=token)) < PREPARED + STOP
 
 
 def test_a_token_that_is_spent_stops_at_once(wide_part: sc.Part, many: Floats) -> None:
@@ -227,13 +218,13 @@ tool = sc.Tool.from_dict({"profile": {"kind": "clothoid", "diameter": 6.0}})
 points = np.random.default_rng(1).uniform(-1.0, 101.0, (40_000_000, 2))
 asked = []
 def interrupt():
-    asked.append(time.monotonic())
+    asked.append(time.process_time())
     os.kill(os.getpid(), signal.SIGINT)
 threading.Timer(0.3, interrupt).start()
 try:
     sc.drop_cutter(part, tool, points)
 except KeyboardInterrupt:
-    print("interrupted", time.monotonic() - asked[0])
+    print("interrupted", time.process_time() - asked[0])
 """
 
 
@@ -242,7 +233,7 @@ def test_ctrl_c_interrupts() -> None:
     done = subprocess.run([sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=False)
     word, seconds = done.stdout.split()
     assert word == "interrupted"
-    assert float(seconds) < STOP + SLACK
+    assert float(seconds) < STOP
 
 
 def test_other_threads_run_meanwhile(wide_part: sc.Part, many: Floats) -> None:
