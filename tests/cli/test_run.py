@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ import styluscam as sc
 from styluscam.cli.summary import lines_of
 from styluscam.programs.summary import Summary
 
-from .conftest import CHECKOUT, COARSE_CUP, changed
+from .conftest import CHECKOUT, COARSE_CUP, FIXTURES, changed
 
 HALF_OF_THE_LAST_DIGIT = 0.0005  # mm: shipped machines post three decimals
 PRINTED = 0.00005  # mm: rs274 prints four
@@ -264,3 +265,20 @@ def test_json_of_a_cancelled_run(coarse, cli, monkeypatch):
     assert ran.code == 3
     assert json.loads(ran.out)["error"]["class"] == "Cancelled"
     assert ran.err == ""
+
+
+@pytest.mark.parametrize(("keys", "stands"), [({}, True), ({"spindle": {"mode": "fixed", "rpm": 8000.0}}, False)])
+def test_summary_states_a_spindle_that_stands_where_the_tool_mills(keys: dict[str, Any], stands: bool) -> None:
+    operation = {"kind": "zig-zag", "tool": "ball", "stepover": 2.0, **keys}
+    job = sc.Job.from_dict(
+        {
+            "schema": 1,
+            "part": {"file": str(FIXTURES / "cone_cup.step"), "faces": ["Face1"]},
+            "process": {"kind": "milling"},
+            "tools": {"ball": {"profile": {"kind": "ball", "diameter": 10.0}}},
+            "operations": [operation],
+            "machine": {"name": "grbl"},
+        }
+    )
+    (summary,) = sc.plan(job).summary()
+    assert ("spindle" in dict(lines_of(summary, job.document))) is stands

@@ -13,6 +13,7 @@ from meridian import FIXTURES
 
 POINT = 1.5021515475689
 """Length of the point of a drill of 5 mm and 118 degrees, mm."""
+CORED = {"kind": "mesh", "file": str(FIXTURES / "drilled.step")}
 PECKS = {"kind": "peck", "peck": 3.0}
 
 
@@ -23,12 +24,14 @@ def _step() -> None:
 
 def job(machine: str = "linuxcnc", diameter: float = 5.0, faces: Any = "all", tip: float = 0.0, **keys: Any) -> sc.Job:
     profile = {"kind": "v", "tip_diameter": tip, "angle_deg": 118.0, "diameter": diameter}
+    # taps and boring tools need the hole: the stock comes with it
+    cored = {"stock": CORED} if keys.get("cycle", {}).get("kind") in ("tap", "bore") else {}
     return sc.Job.from_dict(
         {
             "schema": 1,
             "part": {"file": str(FIXTURES / "drilled.step"), "faces": faces},
             "process": {"kind": "milling"},
-            "setup": {"zero": "model", "clearance": 30.0, "retract": 14.0},
+            "setup": {"zero": "model", "clearance": 30.0, "retract": 14.0, **cored},
             "machine": {"name": machine},
             "tools": {"drill": {"number": 1, "length": 60.0, "profile": profile}},
             "operations": [
@@ -212,6 +215,32 @@ def test_a_tap_that_does_not_come_out_as_it_went_in_is_found(turn: str, rise: st
 def test_a_boring_tool_that_comes_up_at_rapid_is_found() -> None:
     asked = job(cycle={"kind": "bore"})
     assert kinds(text_of(asked).replace("G85", "G81"), asked) == {"rapid-into-material"}
+
+
+TAP = {"kind": "tap", "pitch": 0.8}
+
+
+def test_a_tap_in_what_is_solid_is_found_at_every_hole() -> None:
+    document = job(cycle=TAP).to_dict()
+    del document["setup"]["stock"]
+    asked = sc.Job.from_dict(document)
+    assert kinds(text_of(asked), asked) == {"missing-hole"}
+    found = sc.verify(text_of(asked), asked).to_dict()["findings"]
+    assert {finding["severity"] for finding in found} == {"error"}
+    assert sum(finding["moves"] for finding in found) == 7
+
+
+def test_a_hole_that_is_drilled_before_is_tapped_and_not_the_other_way_round() -> None:
+    document = job(cycle=TAP).to_dict()
+    del document["setup"]["stock"]
+    tap = document["operations"][0] | {"id": "tap"}
+    drill = job().to_dict()["operations"][0] | {"id": "drill"}
+    document["operations"] = [drill, tap]
+    asked = sc.Job.from_dict(document)
+    assert kinds(text_of(asked), asked) == set()
+    document["operations"] = [tap, drill]
+    asked = sc.Job.from_dict(document)
+    assert kinds(text_of(asked), asked) == {"missing-hole"}
 
 
 def test_a_wait_that_is_longer_than_asked_is_found() -> None:

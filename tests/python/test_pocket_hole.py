@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from test_pocket_operation import job, text_of
+from test_pocket_operation import block, job, text_of
 
 import styluscam as sc
 
-HOLE = {"x": 10.0, "y": 8.0, "diameter": 5.0}
+HOLE = {"x": 10.0, "y": 8.0, "diameter": 5.0, "in_stock": True}
 LEVEL: dict[str, Any] = {"z_bottom": 4.0}
 
 
@@ -33,6 +33,22 @@ def test_the_tool_goes_down_in_the_hole_without_a_helix(text: str) -> None:
 def test_a_hole_that_is_missing_elsewhere_or_smaller_is_found(text: str, hole: dict[str, float] | None) -> None:
     keys = LEVEL if hole is None else LEVEL | {"entry_hole": hole}
     assert kinds(text, job(**keys)) & {"steep-entry", "engagement"}
+
+
+def test_a_hole_that_nothing_has_made_is_found(text: str) -> None:
+    asked = job(**LEVEL, entry_hole=HOLE | {"in_stock": False})
+    found = [finding for finding in sc.verify(text, asked).to_dict()["findings"] if finding["kind"] == "missing-hole"]
+    assert [finding["severity"] for finding in found] == ["error"]
+    assert "X10.000 Y8.000" in found[0]["message"] and "in_stock" in found[0]["message"]
+
+
+@pytest.mark.parametrize(("bottom", "finding"), [(4.0, set()), (3.0, {"missing-hole"})])
+def test_what_is_cut_before_counts_as_deep_as_it_goes(bottom: float, finding: set[str]) -> None:
+    document = job(**LEVEL, id="first").to_dict()
+    hole = HOLE | {"in_stock": False}
+    document["operations"] += job(z_bottom=bottom, entry_hole=hole, id="second").to_dict()["operations"]
+    asked = sc.Job.from_dict(document, part=block())
+    assert kinds(text_of(asked), asked) == finding
 
 
 @pytest.mark.parametrize(

@@ -131,6 +131,15 @@ def test_a_way_down_without_its_helix_is_found(sound: tuple[sc.Job, list[str]]) 
     assert "steep-entry" in kinds(asked, spoilt)
 
 
+@pytest.mark.parametrize(("moves", "kind"), [("G0 Z2", "rapid-into-stock"), ("G1 Z2 F300", "steep-entry")])
+def test_a_move_below_the_last_level_is_found(moves: str, kind: str) -> None:
+    asked = job(z_bottom=4.0)
+    lines = whole_lines(text_of(asked))
+    last = max(number for number, line in enumerate(lines) if line.startswith("G0 Z16"))
+    spoilt = [*lines[:last], moves, "G0 Z4", *lines[last:]]
+    assert kind in kinds(asked, spoilt) - kinds(asked, lines)
+
+
 def test_a_rapid_down_into_stock_is_found(sound: tuple[sc.Job, list[str]]) -> None:
     asked, lines = sound
     down = next(number for number, line in enumerate(lines) if line.startswith("G1"))

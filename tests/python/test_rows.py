@@ -173,3 +173,14 @@ def test_rows_cross_each_other_and_a_missing_one_of_either_set_is_found(part: st
 def test_an_angle_between_sets_needs_two() -> None:
     with pytest.raises(sc.JobError, match="second set of rows"):
         sc.plan(job("pyramid", cross_angle_deg=45.0))
+
+
+def test_an_operation_of_which_only_a_plunge_is_left_is_found() -> None:
+    asked = job("cone_cup")
+    lines = sc.post(sc.plan(asked)).text.splitlines()
+    first = next(number for number, line in enumerate(lines) if line.startswith("G1 Z"))
+    last = max(number for number, line in enumerate(lines) if line.startswith("G0 Z"))
+    text = "\n".join([*lines[: first + 1], *lines[last:], ""])
+    found = sc.verify(text, asked).to_dict()["findings"]
+    (missing,) = [finding for finding in found if finding["kind"] == "missing-pass"]
+    assert missing["severity"] == "error" and "no feed of it goes across" in missing["message"]

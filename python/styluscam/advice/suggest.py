@@ -398,8 +398,11 @@ def micrometres(length_mm: float) -> str:
 
 
 def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Progress | None) -> Candidate:
-    """The same with what planning the job with this tool found bridged."""
-    document = copy.deepcopy(job.document)
+    """The same with what planning the operations that are asked about with this tool found bridged."""
+    document, ids = copy.deepcopy(job.document), job.engine.operation_ids()
+    names = {each.name for each in asked}
+    sections = zip(ids, document["operations"], strict=True)
+    document["operations"] = [{**section, "id": name} for name, section in sections if name in names]
     for name in {operation["tool"] for operation in document["operations"]}:
         section = document["tools"][name]
         for key in (*TOOL, "library"):
@@ -409,7 +412,7 @@ def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Prog
     try:
         work = Job.from_dict(document, job.folder, job.target())
         plan = planning.plan(work, progress=progress)
-    except (PlanError, ToolError) as error:
+    except (JobError, PlanError, ToolError) as error:
         failure = str(error)
         reasons = (*candidate.reasons, f"the job cannot be planned with it: {failure}")
         return replace(candidate, failure=failure, reasons=reasons)

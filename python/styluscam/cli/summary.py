@@ -28,6 +28,7 @@ def lines_of(summary: Summary, job: Document) -> list[tuple[str, str]]:
         *([("stock", summary.stock)] if summary.stock else []),
         ("deepest Z", f"{summary.deepest_z:.3f}"),
         *(("tool", _tool(tool)) for tool in summary.tools),
+        *_standing_spindle(job),
         *_sheet(job),
         *(("part", change.words) for change in summary.changes),
         ("units", f"{summary.units} in the program; here mm"),
@@ -77,6 +78,16 @@ def _sheet(job: Document) -> list[tuple[str, str]]:
         return []
     meaning = {"tool": "facing the tool", "back": "away from the tool", "mid": "its middle"}
     return [("sheet", f"{sheet['thickness']:g} mm, {sheet['law']} law; the model is its {face} face ({meaning[face]})")]
+
+
+def _standing_spindle(job: Document) -> list[tuple[str, str]]:
+    """That a cutter does not turn, which is a stylus's way and no cutter's."""
+    if job["process"]["kind"] != "milling":
+        return []
+    operations = job["operations"]
+    standing = sum(operation["spindle"]["mode"] == "off" for operation in operations)
+    words = f"OFF in {standing} of {counted(len(operations), 'operation')}: state spindle, or process.material"
+    return [("spindle", words)] if standing else []
 
 
 def _tool(tool: ToolLine) -> str:

@@ -21,6 +21,7 @@ use crate::{
 #[serde(deny_unknown_fields)]
 pub struct JobDocument {
     /// Version of this document: 1.
+    #[schemars(extend("x-example" = "1"))]
     pub schema: u32,
     /// A name for people; the part's file name when left out.
     #[serde(default)]

@@ -10,8 +10,9 @@ use styluscam_motion::{EventKind, Move, Program, ToolRecord, Watch};
 use styluscam_post::machine::{Rapids, ToolChange};
 use styluscam_post::{read, Machine};
 use styluscam_verify::{
-    cut_by, turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits, Need,
-    Obstacle, Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong, ToolCalls,
+    cut_by, is_named, turned, Axes, Contact, Expectation, ExpectedOperation, FaceCoverage, Forming, Grid, Left, Limits,
+    Need, Obstacle, Pairing, Partner, Passes, Reach, Report, Scallop, Simulation, Subject, TextFacts, TooLong,
+    ToolCalls,
 };
 
 use crate::limits::{GOUGE, NO_ROOM};
@@ -159,7 +160,7 @@ pub fn earlier(job: &JobDocument, text: Text<'_>) -> Result<Earlier, JobError> {
     };
     let prepared = Prepared::new(job, text)?;
     let Reading { program, axes, .. } = &prepared.reading;
-    let missing = |expected: &&ExpectedOperation| program.operations.iter().all(|own| own.id != expected.id);
+    let missing = |expected: &&ExpectedOperation| !program.operations.iter().any(|own| is_named(&expected.id, &own.id));
     if let Some(expected) = prepared.against.expected.iter().find(missing) {
         let message = format!("the earlier program has no operation {:?}: it is not that of its job", expected.id);
         return refused("another-program", message, "post the earlier job again, or name its file by file");

@@ -140,8 +140,10 @@ fn explained(written: &Value, path: &str, message: &str) -> JobError {
     if let Some(key) = message.strip_prefix("missing field ") {
         let key = key.trim_matches('`');
         let path = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
-        let example = schema::example_at(written, &path).map_or(String::new(), |text| format!(" = {text}"));
-        return JobError::document("missing", path, format!("{key} is missing"), format!("add {key}{example}"));
+        let example = schema::example_at(written, &path).map(|text| format!(" = {text}"));
+        let allowed = || Some(format!("; allowed: {}", schema::allowed_at(written, &path, units::stated(written))?));
+        let how = example.or_else(allowed).unwrap_or_default();
+        return JobError::document("missing", path, format!("{key} is missing"), format!("add {key}{how}"));
     }
     let allowed = schema::allowed_at(written, path, units::stated(written));
     let allowed = allowed.map_or(String::new(), |words| format!("; allowed: {words}"));
@@ -161,14 +163,28 @@ fn explained(written: &Value, path: &str, message: &str) -> JobError {
         m => m,
     };
     let message = in_words(message);
-    JobError::document("type", path, format!("{message}{allowed}"), "correct the value")
+    let hint =
+        if message == A_TABLE_FOR_A_LIST { "put its header in two brackets: [[...]]" } else { "correct the value" };
+    JobError::document("type", path, format!("{message}{allowed}"), hint)
 }
+
+/// What is said of `[operations]`, where `[[operations]]` is meant.
+const A_TABLE_FOR_A_LIST: &str = "invalid type: a table, where a list is expected";
 
 /// Serde's names of types as people call them.
 fn in_words(message: &str) -> String {
-    const NAMES: [(&str, &str); 3] =
-        [("f64", "a number"), ("struct ", "a table"), ("internally tagged enum ", "a table")];
+    const NAMES: [(&str, &str); 8] = [
+        ("f64", "a number"),
+        ("u32", "a whole number"),
+        ("usize", "a whole number"),
+        ("a sequence", "a list"),
+        ("a map", "a table"),
+        ("struct ", "a table"),
+        ("internally tagged enum ", "a table"),
+        ("a string", "a word in quotes"),
+    ];
     let Some((found, expected)) = message.split_once(", expected ") else { return message.to_owned() };
+    let found = found.replace("type: map", "type: a table").replace("type: sequence", "type: a list");
     let name = NAMES.iter().find(|(name, _)| expected.starts_with(name)).map_or(expected, |(_, words)| *words);
     format!("{found}, where {name} is expected")
 }

@@ -11,6 +11,12 @@ fn only<T>(mut found: impl Iterator<Item = T>) -> Option<T> {
     found.next().filter(|_| found.next().is_none())
 }
 
+/// Whether an operation of a text has the id of a job's, as far as a machine's character set lets remarks hold it.
+#[must_use]
+pub fn is_named(id: &str, in_text: &str) -> bool {
+    id == in_text || plain(id) == plain(in_text)
+}
+
 /// What is left of an id in any character set.
 fn plain(id: &str) -> String {
     id.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
@@ -30,7 +36,7 @@ impl<'a> Assignment<'a> {
         let by_id = |id: &str| {
             // a machine's character set changes what remarks can hold
             let named = expected.iter().find(|operation| operation.id == id);
-            named.or_else(|| only(expected.iter().filter(|operation| plain(&operation.id) == plain(id))))
+            named.or_else(|| only(expected.iter().filter(|operation| is_named(&operation.id, id))))
         };
         let of: Vec<_> = program.operations.iter().map(|operation| by_id(&operation.id)).collect();
         let tools = || program.operations.iter().map(|operation| operation.tool as usize);
@@ -68,12 +74,23 @@ impl<'a> Assignment<'a> {
 
     /// The findings of operations that are missing, not named, in another order, or not checked in full.
     pub fn findings(&self, program: &Program, subject: &Subject) -> Vec<Finding> {
-        let mut findings = missing(program, subject);
+        let mut findings: Vec<Finding> = self.missing().collect();
         findings.extend(self.unnamed(subject));
         findings.extend(self.unknown(program, subject));
         findings.extend(self.out_of_order(program, subject));
         findings.extend(self.not_checked(subject));
         findings
+    }
+
+    /// The findings of operations that the text does not carry out, when it carries out any by name.
+    fn missing(&self) -> impl Iterator<Item = Finding> + use<'_, 'a> {
+        let carries_out =
+            |expected: &ExpectedOperation| self.of.iter().flatten().any(|operation| std::ptr::eq(*operation, expected));
+        let any = self.of.iter().any(Option::is_some);
+        self.expected.iter().filter(move |expected| any && !carries_out(expected)).map(|expected| {
+            let message = format!("the text has no operation {:?} of the job; post the whole job", expected.id);
+            Finding::of_all(FindingKind::MissingOperation, Severity::Error, message)
+        })
     }
 
     /// The finding of operations that come in another order than the job's.
@@ -133,18 +150,4 @@ impl<'a> Assignment<'a> {
             Some(Finding::of_all(FindingKind::NotChecked, Severity::Note, message))
         })
     }
-}
-
-/// The findings of operations that the text does not carry out, when it carries out any by name.
-fn missing(program: &Program, subject: &Subject) -> Vec<Finding> {
-    let named = |expected: &&ExpectedOperation| program.operations.iter().any(|operation| operation.id == expected.id);
-    if !subject.expected.iter().any(|operation| named(&operation)) {
-        return Vec::new();
-    }
-    let left = subject.expected.iter().filter(|operation| !named(operation));
-    let message = |id: &str| format!("the text has no operation {id:?} of the job; post the whole job");
-    let finding = |operation: &ExpectedOperation| {
-        Finding::of_all(FindingKind::MissingOperation, Severity::Error, message(&operation.id))
-    };
-    left.map(finding).collect()
 }

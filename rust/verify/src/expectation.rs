@@ -139,8 +139,8 @@ pub struct Clearing {
     pub left: [f64; 2],
     /// How far the path may be off the part, mm: levels lie so much higher at most, and walls are kept away from.
     pub tolerance: f64,
-    /// A hole through the stock: its axis in plan and its radius, mm.
-    pub hole: Option<([f64; 2], f64)>,
+    /// A hole in which the tool goes down.
+    pub hole: Option<ClearedHole>,
     /// Whether what the operations before it sweep is no stock any more.
     pub rest: bool,
     /// Whether all stock that the tool reaches is to be cleared, and not only that over the selected triangles.
@@ -175,6 +175,17 @@ pub struct FlankFace {
     pub rails: [NurbsCurve; 2],
     /// Whether the outside is to the left, seen along the rails with the second above the first.
     pub is_left: bool,
+}
+
+/// A hole in which an operation begins that clears stock, work coordinates, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClearedHole {
+    /// Its axis in plan.
+    pub at: [f64; 2],
+    /// Its radius.
+    pub radius: f64,
+    /// Whether the stock comes with it: else what is cut before has to make it.
+    pub is_in_stock: bool,
 }
 
 /// How holes are drilled.

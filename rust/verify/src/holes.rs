@@ -9,6 +9,7 @@
 use crate::bored;
 use crate::expectation::{DrilledHole, Drilling};
 use crate::faults::{self, Fault};
+use crate::opened::{Opened, Opening};
 use crate::segments::{Segment, SegmentKind};
 use crate::subject::{Limits, Subject};
 use crate::tolerances::SLACK;
@@ -66,7 +67,11 @@ pub(crate) fn faults(segments: &[Segment], subject: &Subject, limits: &Limits) -
     for (number, operation) in subject.expected.iter().enumerate() {
         let Some(drilling) = operation.expectation.drilling() else { continue };
         let own: Vec<&Segment> = segments.iter().filter(|segment| segment.expected == Some(number)).collect();
-        let Some(last) = own.last() else { continue }; // that the operation is missing is found by itself
+        // that the operation is missing is found by itself
+        let Some(last) = own.last() else { continue };
+        if drilling.rises_at_feed {
+            faults.extend(without_core(&own, segments, drilling, subject, limits));
+        }
         let [_, top] = operation.expectation.heights;
         let stock = if top.is_finite() { top } else { f64::NEG_INFINITY };
         let mut walk = Walk { drilling, subject, limits, stock, drilled: vec![UNTOUCHED; drilling.holes.len()] };
@@ -83,6 +88,33 @@ pub(crate) fn faults(segments: &[Segment], subject: &Subject, limits: &Limits) -
         }
     }
     faults
+}
+
+/// Share of its radius to which a hole has to be open before it is tapped or bored: core holes of threads are wider.
+const CORE: f64 = 0.6;
+
+/// The faults of holes that are tapped or bored, which cuts no hole into what is solid, and are not drilled before.
+fn without_core(
+    own: &[&Segment],
+    segments: &[Segment],
+    drilling: &Drilling,
+    subject: &Subject,
+    limits: &Limits,
+) -> Vec<Fault> {
+    let opened = own.first().and_then(|first| Opened::before(first.index, segments, subject));
+    let Some(opened) = opened else { return Vec::new() };
+    let fault = |hole: &DrilledHole| {
+        // a drill's point leaves a cone over the bottom
+        let bottom = (hole.bottom + hole.radius).min(0.5 * (hole.bottom + hole.top));
+        let opening = Opening { at: hole.at, radius: CORE * hole.radius, top: hole.top, bottom };
+        let is_in_hole = |segment: &&&Segment| {
+            segment.kind == SegmentKind::Plunge
+                && drilled_at(segment, subject, limits).is_some_and(|other| std::ptr::eq(other, hole))
+        };
+        let segment = own.iter().find(is_in_hole).filter(|_| !opened.has(&opening))?;
+        Some(segment.fault(&faults::NO_CORE_HOLE).measured(2.0 * hole.radius, hole.bottom))
+    };
+    drilling.holes.iter().filter_map(fault).collect()
 }
 
 struct Walk<'a> {

@@ -61,7 +61,7 @@ pub fn judge(program: &Program, subject: &Subject, limits: &Limits, watch: &Watc
         .chain(steep)
         .chain(cleared.findings.into_iter().chain(of_edges))
         .chain(beyond_reach)
-        .chain(travel::no_feed_moves(program));
+        .chain(travel::without_feeds(program, &segments, &assignment, subject));
     let of_text =
         if limits.shape_only { Vec::new() } else { of_whole_text(&axes, &assignment, subject, program, limits) };
     let wholes: Vec<Finding> = of_text.into_iter().chain(of_shape).chain(nothing).collect();

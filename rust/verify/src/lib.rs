@@ -67,6 +67,7 @@ mod low_links;
 mod made;
 mod measure;
 mod merge;
+mod opened;
 mod pair;
 mod passes;
 mod pitch;
@@ -102,6 +103,7 @@ mod walls;
 mod walls_beside;
 mod words;
 
+pub use assignment::is_named;
 pub use before::Before;
 pub use coverage::{coverage, left, needs, FaceCoverage};
 pub use earlier::cut_by;
@@ -110,14 +112,15 @@ pub use engagement::{
     engagement, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Swept, CHIP,
 };
 pub use expectation::{
-    Boring, ChamferedEdge, Chamfering, Clearing, Contact, ContourLevel, ContourLine, ContourPiece, ContourSide,
-    Contouring, DrilledHole, Drilling, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers, OrderedPasses,
-    Passes, TabShape,
+    Boring, ChamferedEdge, Chamfering, ClearedHole, Clearing, Contact, ContourLevel, ContourLine, ContourPiece,
+    ContourSide, Contouring, DrilledHole, Drilling, Expectation, ExpectedOperation, FlankFace, FlankPasses, Layers,
+    OrderedPasses, Passes, TabShape,
 };
 pub use findings::{Finding, FindingKind, Severity};
 pub use flank::{clearance_of_tool, left_by_flank, FlankShape};
 pub use flats::Need;
 pub use groups::Group;
+pub use in_stock::{CUT_BY_MIDDLE, DEEPEST_AT_ONCE};
 pub use judge::judge;
 pub use leaning::{AxisTurning, FlankFaceError, OperationFlank};
 pub use pitch::Pitch;

@@ -3,6 +3,7 @@
 use styluscam_motion::{EventKind, FeedMode, Move, MoveKind, Program};
 
 use crate::assignment::Assignment;
+use crate::expectation::ExpectedOperation;
 use crate::faults::{self, Fault};
 use crate::findings::{Finding, FindingKind, Severity};
 use crate::segments::{is_in_range, Segment, SegmentKind};
@@ -105,11 +106,33 @@ fn no_end(program: &Program, subject: &Subject) -> Option<Fault> {
     Some(Fault { line: text.lines, ..Fault::of(&faults::NO_END, program.moves.len() - 1, step) })
 }
 
-/// The finding of a program that never feeds.
-pub(crate) fn no_feed_moves(program: &Program) -> Option<Finding> {
-    let none = program.moves.iter().all(|m| m.kind == MoveKind::Rapid);
-    let message = "the program has no feed move; post an operation that has a path".to_owned();
-    none.then(|| Finding::of_all(FindingKind::NoFeedMoves, Severity::Error, message))
+/// The findings of a program that never feeds, and of operations of which no feed goes across.
+pub(crate) fn without_feeds(
+    program: &Program,
+    segments: &[Segment],
+    assignment: &Assignment,
+    subject: &Subject,
+) -> Vec<Finding> {
+    if program.moves.iter().all(|m| m.kind == MoveKind::Rapid) {
+        let message = "the program has no feed move; post an operation that has a path".to_owned();
+        return vec![Finding::of_all(FindingKind::NoFeedMoves, Severity::Error, message)];
+    }
+    without_passes(segments, assignment, subject)
+}
+
+/// The findings of operations that have moves, and none of them is a pass: nothing else is looked at beside passes alone.
+fn without_passes(segments: &[Segment], assignment: &Assignment, subject: &Subject) -> Vec<Finding> {
+    let goes_across = |expected: &&ExpectedOperation| expected.expectation.drilling().is_none();
+    let finding = |expected: &ExpectedOperation| {
+        let mut own = segments.iter().filter(|segment| assignment.is(segment.operation, expected));
+        let first = own.next()?;
+        let has_pass = first.kind == SegmentKind::Lateral || own.any(|segment| segment.kind == SegmentKind::Lateral);
+        let (id, line) = (&expected.id, first.line);
+        let message =
+            format!("line {line}: operation {id:?} has no pass: no feed of it goes across; post the whole operation");
+        (!has_pass).then(|| Finding::of_all(FindingKind::MissingPass, Severity::Error, message).at_line(line))
+    };
+    subject.expected.iter().filter(goes_across).filter_map(finding).collect()
 }
 
 /// The finding of lines that run where the machine's switch for optional blocks decides.

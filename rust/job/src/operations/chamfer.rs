@@ -127,9 +127,7 @@ impl Chamfer {
     }
 
     fn curves(&self, scene: &Scene, path: &str) -> Result<Option<Vec<NurbsCurve>>, JobError> {
-        let Some(names) = &self.edge_names else { return Ok(None) };
-        let curve = |(i, name): (usize, &String)| rails::edge(scene, name, &format!("{path}.edge_names[{i}]"));
-        names.iter().enumerate().map(curve).collect::<Result<_, _>>().map(Some)
+        self.edge_names.as_ref().map(|names| rails::edges(scene, names, path)).transpose()
     }
 
     /// What is chamfered of the faces; `path` is the operation's.

@@ -2,7 +2,6 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use styluscam_geometry::NurbsCurve;
 use styluscam_toolpath::contouring::Beside;
 use styluscam_verify::{Contact, ContourLevel, ContourLine, ContourPiece, ContourSide, Contouring, Passes};
 
@@ -88,9 +87,7 @@ impl Contour {
             }
             return Ok(found);
         };
-        let curve = |(i, name): (usize, &String)| rails::edge(scene, name, &format!("{path}.edge_names[{i}]"));
-        let curves: Vec<NurbsCurve> = names.iter().enumerate().map(curve).collect::<Result<_, _>>()?;
-        lines_of_edges(scene, (names, &curves), path)
+        lines_of_edges(scene, (names, &rails::edges(scene, names, path)?), path)
     }
 
     /// What is milled; `path` is the operation's.
@@ -177,12 +174,6 @@ impl OperationKind for Contour {
             let message = "a tool on the edges leaves no stock beside them";
             let hint = "remove radial_stock_to_leave, or set edge_side";
             return Err(JobError::document("conflict", format!("{path}.radial_stock_to_leave"), message, hint));
-        }
-        if let (Some(top), Some(bottom)) = (common.z_top, common.z_bottom) {
-            if bottom > top {
-                let message = format!("z_bottom = {} is above z_top = {}", shown(bottom), shown(top));
-                return Err(JobError::document("conflict", format!("{path}.z_bottom"), message, "swap them"));
-            }
         }
         let refused = [
             ("boundary", common.boundary.is_some()),

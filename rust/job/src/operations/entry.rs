@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::{circle_outline, Stock};
 use styluscam_toolpath::pocket::EntryForm;
+use styluscam_verify::ClearedHole;
 
 use super::Context;
 use crate::numbers::shown;
@@ -48,12 +49,20 @@ pub struct EntryHole {
     /// Its diameter, mm.
     #[schemars(extend("x-unit" = "mm", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     pub diameter: f64,
+    /// Whether the stock comes with it. Else it has to be cut before: by this job, or the one that the stock names.
+    #[serde(default)]
+    pub in_stock: bool,
 }
 
 impl EntryHole {
     /// Its outline: two points with bulges.
     pub(super) fn outline(self) -> Vec<[f64; 3]> {
         circle_outline([self.x, self.y], 0.5 * self.diameter)
+    }
+
+    /// It, for the verifier.
+    pub(super) fn cleared(self) -> ClearedHole {
+        ClearedHole { at: [self.x, self.y], radius: 0.5 * self.diameter, is_in_stock: self.in_stock }
     }
 
     /// Whether the tool finds its first passes in the hole: a circle of the smallest radius `rho` keeps the material as far away as the bound

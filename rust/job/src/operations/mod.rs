@@ -41,6 +41,7 @@ mod tabs;
 mod tests;
 
 pub(crate) use before::Before;
+pub(crate) use clears::ENGAGEMENT_DEG;
 pub use context::Context;
 pub use effort::{Areas, Effort};
 pub(crate) use facts::counted;

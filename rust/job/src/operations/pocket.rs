@@ -14,7 +14,7 @@ use styluscam_toolpath::{Heights, Pass, PlanError, Segment, Sense, Surface};
 use styluscam_verify::{Clearing, Contact, Passes};
 
 use super::budget;
-use super::clears::Clears;
+use super::clears::{Clears, ENGAGEMENT_DEG};
 use super::corners;
 use super::entry::{Entry, EntryHole};
 use super::facts::counted;
@@ -130,9 +130,9 @@ impl Pocket {
         starter: |passes| {
             format!(
                 "clears = \"stock\"           # all that the tool reaches, or \"faces\": what is over these alone\n\
-                 step = {{ height = {:?} }}    # distance between levels\nengagement_deg = 60.0      # largest engagement \
+                 step = {{ height = {:?} }}    # distance between levels\nengagement_deg = {:?}      # largest engagement \
                  angle\n",
-                passes.pitch
+                passes.pitch, ENGAGEMENT_DEG
             )
         },
     };
@@ -325,7 +325,7 @@ impl OperationKind for Pocket {
             pitch: self.step.pitch(StepLimits::default(), given.top, given.body),
             left,
             tolerance: given.tolerance,
-            hole: self.entry_hole.map(|hole| ([hole.x, hole.y], 0.5 * hole.diameter)),
+            hole: self.entry_hole.map(EntryHole::cleared),
             rest: self.rest_machining,
             all: self.clears.is_all(),
             lowest: given.bottom.filter(|_| self.clears.is_all()),
@@ -334,7 +334,7 @@ impl OperationKind for Pocket {
     }
 
     fn spacing(&self) -> Option<PassSpacing> {
-        self.step.even().map(|pitch| PassSpacing::Height { pitch })
+        None // what its levels leave is cleared by a floor or finished: no scallops
     }
 
     fn effort(&self, _areas: &Areas) -> Option<Effort> {
@@ -366,7 +366,8 @@ impl Pocket {
         let [[_, raised], [_, finished]] = self.left_and_finished(context.common.stock_to_leave());
         let top = context.heights.top.unwrap_or(scene.top) - raised;
         let bottom = context.heights.bottom - raised;
-        let reachable = stated.map_or(touched, |z| z - raised);
+        // beside the part, and where it is open below, nothing is to stay
+        let reachable = stated.unwrap_or(touched) - if self.clears.is_all() { raised } else { 0.0 };
         let body = context.tool.body(None);
         let keys = LevelKeys { step: &self.step, limits: StepLimits::default(), at_flats: true, of_turns: false };
         let steps = levels::steps_of(&keys, (top, &body), deviation, surface, watch)?;
@@ -591,7 +592,7 @@ fn is_over_selected(surface: &Surface<'_>, area: &CentreArea, floor: f64, radius
 }
 
 fn engagement() -> f64 {
-    60.0
+    ENGAGEMENT_DEG
 }
 
 fn entry_angle() -> f64 {

@@ -147,6 +147,16 @@ pub(super) fn edge(scene: &Scene, name: &str, path: &str) -> Result<NurbsCurve, 
     })
 }
 
+/// The curves of the edges that an operation at `path` names in `edge_names`.
+pub(super) fn edges(scene: &Scene, names: &[String], path: &str) -> Result<Vec<NurbsCurve>, JobError> {
+    if names.is_empty() {
+        let hint = "name edges: edge_names = [\"Edge3\"], or remove edge_names: then those of the faces are taken";
+        return Err(JobError::document("missing", format!("{path}.edge_names"), "no edge is named", hint));
+    }
+    let curve = |(i, name): (usize, &String)| edge(scene, name, &format!("{path}.edge_names[{i}]"));
+    names.iter().enumerate().map(curve).collect()
+}
+
 fn ends(rail: &NurbsCurve) -> [Vector; 2] {
     rail.domain().map(|at| rail.at(at).point)
 }

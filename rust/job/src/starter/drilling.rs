@@ -21,13 +21,15 @@ const TO_SIZE: f64 = 0.01;
 const READ: f64 = 0.001;
 /// Deeper holes are drilled in pecks, in diameters.
 const DEEP: f64 = 3.0;
+/// Flat floors of holes that are no narrower are finished by milling, mm: usual end mills get in there.
+const MILLED: f64 = 6.0;
 /// What an axis may be off the middle of a hole's floor, mm.
 const SAME: f64 = 0.01;
 
 /// Drilling of the holes of one diameter.
 pub struct Drilled {
     pub work: Work,
-    /// Walls and floors that are done with it.
+    /// Walls and floors that are done with it: no other operation is for them.
     pub faces: Vec<u32>,
     /// Axes in plan, mm.
     pub axes: Vec<[f64; 2]>,
@@ -90,7 +92,11 @@ fn drilled(body: &Body<'_>, diameter: f64, holes: &[Hole]) -> Option<Drilled> {
     if off {
         why.push(format!("the next drill is {wider:.2} mm narrower: ream or bore what has to have its size"));
     }
-    if holes.iter().any(|hole| hole.floor.is_some_and(|floor| floor > hole.bottom - SAME)) {
+    let (milled, done): (Vec<Hole>, Vec<Hole>) =
+        holes.iter().cloned().partition(|hole| has_flat_floor(hole) && hole.diameter() >= MILLED);
+    if !milled.is_empty() {
+        why.push("the drill's point leaves a cone on flat floors: finishing takes it".to_owned());
+    } else if holes.iter().any(has_flat_floor) {
         why.push("the drill's point leaves a cone on flat floors: mill them if they have to be flat".to_owned());
     }
     let passes = StarterPasses {
@@ -98,11 +104,12 @@ fn drilled(body: &Body<'_>, diameter: f64, holes: &[Hole]) -> Option<Drilled> {
         wider: if off { (wider * 1000.0).ceil() / 1000.0 } else { 0.0 },
         ..StarterPasses::default()
     };
-    let floors = floors(body, holes);
+    let walls_done = done.iter().flat_map(|hole| hole.faces.iter().copied());
+    let faces = walls_done.chain(floors(body, &done)).collect();
     Some(Drilled {
         axes: holes.iter().map(|hole| hole.at).collect(),
         radius: 0.5 * widest,
-        faces: walls.iter().copied().chain(floors).collect(),
+        faces,
         work: Work {
             id: format!("holes-{diameter}"),
             serves: Serves::Holes,
@@ -114,6 +121,11 @@ fn drilled(body: &Body<'_>, diameter: f64, holes: &[Hole]) -> Option<Drilled> {
             why,
         },
     })
+}
+
+/// Whether the hole's wall goes down to a flat floor, or a shoulder around a narrower hole.
+fn has_flat_floor(hole: &Hole) -> bool {
+    hole.floor.is_some_and(|floor| floor > hole.bottom - SAME)
 }
 
 /// Faces that lie in holes all over.

@@ -3,6 +3,7 @@
 
 use styluscam_geometry::Tool;
 use styluscam_toolpath::forming::Floors;
+use styluscam_verify::{CUT_BY_MIDDLE, DEEPEST_AT_ONCE};
 
 use super::allowances::Allowances;
 use super::cutter::{Cutter, Shape};
@@ -18,12 +19,9 @@ use crate::operations::{Serves, StarterPasses};
 
 /// Nodes along the longer side of the stock in plan: they are nearer than the narrowest tool's radius, a hundredth of the part's size.
 const NODES: f64 = 160.0;
-/// Tools cut no deeper through the stock at once than this, in diameters,
-const DEEPEST: f64 = 1.0;
-/// but for so many nodes in finishing, which is there anyhow: so few are no reason for more operations.
+/// Nodes in finishing, which is there anyhow, on which tools may cut deeper through the stock at once than the verifier lets them
+/// ([`DEEPEST_AT_ONCE`]): so few are no reason for more operations.
 const FEW: usize = 2;
-/// Stock counts up to so far from the tool's axis, as a share of its radius, as for the verifier: what is farther off is a skin.
-const MIDDLE: f64 = 0.5;
 /// A node counts as swept where it is beside a tool's rim by this share of the distance between nodes.
 const BESIDE: f64 = 0.5;
 /// Distance between rows, in diameters: what stands between them is about what is left for finishing.
@@ -236,7 +234,7 @@ impl Part<'_> {
 
     /// The part of a tool's front about its axis in which stock counts as cut at once.
     fn middle(&self, tool: &Tool) -> Front {
-        self.nodes.middle(tool, MIDDLE * 0.5 * tool.diameter())
+        self.nodes.middle(tool, CUT_BY_MIDDLE * 0.5 * tool.diameter())
     }
 }
 
@@ -272,7 +270,7 @@ impl Passes {
     fn too_deep(&self, heights: &Heights, nodes: &StockNodes<'_>, few: usize) -> Option<f64> {
         let (mut count, mut largest) = (0, 0.0);
         for depth in nodes.over(heights, (&self.standing, &self.middle)) {
-            count += usize::from(depth > DEEPEST * self.cutter.diameter);
+            count += usize::from(depth > DEEPEST_AT_ONCE * self.cutter.diameter);
             largest = f64::max(largest, depth);
         }
         (count > few).then_some(largest)

@@ -8,7 +8,7 @@ use super::sizes::{self, round};
 use super::stock_nodes::StockNodes;
 use super::work::Work;
 use crate::body::Body;
-use crate::operations::{Serves, StarterPasses};
+use crate::operations::{Serves, StarterPasses, ENGAGEMENT_DEG};
 
 /// Nodes along the longer side of the stock in plan at which it is looked at how deep a tool gets.
 const NODES: f64 = 48.0;
@@ -25,8 +25,6 @@ const STURDY: f64 = 2.0;
 const LONGEST: f64 = 6_000.0;
 /// By how much it may be longer with a narrower tool where finishing would cut too deep through what the first leaves.
 const LONGER: f64 = 4.0;
-/// Largest engagement angle, deg.
-const ENGAGEMENT_DEG: f64 = 60.0;
 /// Depth of a level, as a share of the tool's diameter: at a bounded engagement angle it could be deeper, shanks of long tools bend.
 const LEVEL: f64 = 0.5;
 /// A level is no deeper than this, mm, as long as there are not more levels: cutting edges of inserts are not much longer.

@@ -4,8 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Stock, Vector};
 
-use super::kind::{Around, StockKind};
-use crate::numbers::shown;
+use super::kind::{extent, Around, StockKind};
 use crate::JobError;
 
 /// A box around the part: so much larger than the part's box, or between two corners.
@@ -55,12 +54,7 @@ impl StockKind for BoxStock {
     }
 
     fn words(&self, _: &Around<'_>, stock: &Stock) -> String {
-        let (low, high) = stock.bounds();
-        let axis = |i: usize, name: &str| {
-            let [low, high] = [low, high].map(|corner| shown((corner[i] * 1e3).round() / 1e3));
-            format!("{name}{low} to {high}")
-        };
-        format!("a box, {}, {}, {}", axis(0, "X"), axis(1, "Y"), axis(2, "Z"))
+        format!("a box, {}", extent(stock))
     }
 
     fn holds(&self, stock: &Stock, point: Vector, within: f64) -> bool {

@@ -4,8 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use styluscam_geometry::{Stock, Vector};
 
-use super::kind::{Around, StockKind};
-use crate::numbers::shown;
+use super::kind::{extent, Around, StockKind};
 use crate::{JobError, Units};
 
 /// By how much the part may stick out of it, mm: both are triangles, whose chords are as far off.
@@ -41,12 +40,7 @@ impl StockKind for MeshStock {
     }
 
     fn words(&self, _: &Around<'_>, stock: &Stock) -> String {
-        let (low, high) = stock.bounds();
-        let axis = |i: usize, name: &str| {
-            let [low, high] = [low, high].map(|corner| shown((corner[i] * 1e3).round() / 1e3));
-            format!("{name}{low} to {high}")
-        };
-        format!("the body in {}, {}, {}, {}", self.file, axis(0, "X"), axis(1, "Y"), axis(2, "Z"))
+        format!("the body in {}, {}", self.file, extent(stock))
     }
 
     fn slack(&self) -> f64 {

@@ -5,10 +5,21 @@ use std::sync::Arc;
 use styluscam_geometry::{Frame, Mesh, Solid, Stock, Vector};
 
 use crate::earlier::Earlier;
+use crate::numbers::shown;
 use crate::JobError;
 
 /// By how much stock may be smaller than the part, mm: what rounding does to its numbers.
 const SAME: f64 = 1e-6;
+
+/// The extent of stock along the three axes, in words, work coordinates.
+pub(super) fn extent(stock: &Stock) -> String {
+    let (low, high) = stock.bounds();
+    let axis = |i: usize, name: &str| {
+        let [low, high] = [low, high].map(|corner| shown((corner[i] * 1e3).round() / 1e3));
+        format!("{name}{low} to {high}")
+    };
+    format!("{}, {}, {}", axis(0, "X"), axis(1, "Y"), axis(2, "Z"))
+}
 
 /// What was read for stock that a job states by files.
 #[derive(Clone, Copy)]

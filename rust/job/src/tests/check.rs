@@ -65,6 +65,21 @@ fn a_number_where_a_table_is_expected_is_answered_with_a_table() {
 }
 
 #[test]
+fn what_is_missing_or_of_another_type_is_answered_in_words_of_the_document() {
+    for (before, after, expected) in [
+        ("[[operations]]", "[operations]", "a table, where a list is expected"),
+        ("[[operations]]", "[operations]", "put its header in two brackets"),
+        ("schema = 1", "", "schema is missing, add schema = 1"),
+        ("schema = 1", "schema = \"one\"", "where a whole number is expected"),
+        ("step = { height = 1.0 }", "", "step is missing, add step = {"),
+    ] {
+        let error = crate::from_toml(&with(&levels(), before, after)).map(|_| ()).expect_err(after);
+        let words = format!("{error}, {}", error.hint());
+        assert!(words.contains(expected), "{words}");
+    }
+}
+
+#[test]
 fn two_tools_with_one_number_and_two_operations_with_one_id_are_refused() {
     let tools = with(&levels(), "[tools.a]", "[tools.b]\nprofile = { kind = \"ball\", diameter = 2.0 }\n[tools.a]");
     assert_eq!(refused(&tools), ("conflict".to_owned(), "tools.b.number".to_owned()));

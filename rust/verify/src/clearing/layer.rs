@@ -10,7 +10,7 @@ use super::own::Own;
 use crate::engagement::{
     engagement, Area, Engaged, EngagementError, Ground, PlaneRun, PlaneRunKind, RunEngagement, Sweeps, Swept,
 };
-use crate::expectation::{Clearing, ExpectedOperation};
+use crate::expectation::{ClearedHole, Clearing, ExpectedOperation};
 use crate::faults::{self, Fault};
 use crate::segments::{Segment, SegmentKind};
 use crate::tolerances::{SAME_LEVEL, SLACK};
@@ -190,14 +190,14 @@ impl Layer<'_> {
 
     /// The outlines of the stock, and of the hole in it.
     fn stock(&self) -> Vec<Vec<[f64; 3]>> {
-        let hole = self.clearing.hole.filter(|(axis, _)| self.area.holds(*axis));
-        let hole = hole.map(|(axis, radius)| circle_outline(axis, radius));
+        let hole = self.clearing.hole.filter(|hole| self.area.holds(hole.at));
+        let hole = hole.map(|hole| circle_outline(hole.at, hole.radius));
         self.stock.iter().cloned().chain(hole).collect()
     }
 
     /// Whether a point lies in the stock.
     pub fn is_stock(&self, [x, y]: [f64; 2]) -> bool {
-        let is_drilled = |([u, v], radius): ([f64; 2], f64)| libm::hypot(x - u, y - v) < radius;
+        let is_drilled = |hole: ClearedHole| libm::hypot(x - hole.at[0], y - hole.at[1]) < hole.radius;
         self.area.holds([x, y]) && !self.clearing.hole.is_some_and(is_drilled) && !self.gone.holds([x, y])
     }
 

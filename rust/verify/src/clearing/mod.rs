@@ -8,7 +8,9 @@
 
 mod along;
 mod before;
+mod below;
 mod beside;
+mod entry_hole;
 mod layer;
 mod levels;
 mod own;
@@ -88,6 +90,8 @@ pub(crate) fn judged(
             findings.extend(left);
         }
         engagement.push(along.finished());
+        faults.extend(below::faults(&work, limits));
+        findings.extend(entry_hole::missing(&work, segments, subject));
         findings.extend(levels::missing(&work, &body, subject, limits, watch)?);
     }
     faults.sort_by_key(|fault| fault.index);

@@ -13,6 +13,16 @@ pub(crate) static MISSING_HOLE: FaultKind = FaultKind::on_part(
     },
     "post the whole operation: a hole, or the end of one, is missing",
 );
+pub(crate) static NO_CORE_HOLE: FaultKind = FaultKind::on_part(
+    FindingKind::MissingHole,
+    |fault| {
+        let (value, limit) = (fault.value(), fault.limit());
+        format!(
+            "a tap or boring tool of {value:.3} mm goes down to Z{limit:.3}, and nothing has drilled this hole before"
+        )
+    },
+    "drill it in an operation before, or state a stock that comes with the hole",
+);
 pub(crate) static NO_HOLE_HERE: FaultKind = FaultKind::on_part(
     FindingKind::ExtraHole,
     |fault| {

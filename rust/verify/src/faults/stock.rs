@@ -1,6 +1,6 @@
 //! Faults of moves that clear stock.
 
-use super::FaultKind;
+use super::{Fault, FaultKind};
 use crate::findings::FindingKind;
 
 pub(crate) static ENGAGEMENT: FaultKind = FaultKind::on_part(
@@ -58,6 +58,18 @@ pub(crate) static RAPID_IN_STOCK: FaultKind = FaultKind::on_part(
     "retract first, and come down where the stock is cleared",
 )
 .in_unit("deg");
+
+pub(crate) static RAPID_BELOW_LEVELS: FaultKind =
+    FaultKind::on_part(FindingKind::RapidIntoStock, |fault| below_levels("a rapid", fault), BELOW_LEVELS);
+pub(crate) static FEED_BELOW_LEVELS: FaultKind =
+    FaultKind::on_part(FindingKind::SteepEntry, |fault| below_levels("a feed", fault), BELOW_LEVELS);
+
+const BELOW_LEVELS: &str = "correct this coordinate, or post the operation again";
+
+fn below_levels(what: &str, fault: &Fault) -> String {
+    let (value, limit) = (fault.value(), fault.limit());
+    format!("{what} goes down to Z{value:.3}, and the operation's levels and what they clear end at Z{limit:.3}")
+}
 
 pub(crate) static STOCK_ABOVE: FaultKind = FaultKind::on_part(
     FindingKind::StockAbove,

@@ -16,8 +16,10 @@ use crate::segments::{Segment, SegmentKind};
 use crate::simulation::{Material, Moved, Overlap};
 use crate::subject::Subject;
 
-/// How near to the axis what stands is cut by the tool's middle, as a share of its radius.
-const MIDDLE: f64 = 0.5;
+/// How near to the axis what stands is cut by the tool's middle, as a share of its radius: what is farther off is a skin.
+pub const CUT_BY_MIDDLE: f64 = 0.5;
+/// Passes that follow the part cut no deeper through the stock at once than this, in diameters of their tool.
+pub const DEEPEST_AT_ONCE: f64 = 1.0;
 /// Nodes are so far apart, as a share of the narrowest tool's radius.
 const SPACING: f64 = 0.5;
 /// Chords are nearer to arcs than this share of the tool's radius.
@@ -34,7 +36,7 @@ pub(super) fn faults(
     let tools: Vec<Moved> = subject.tools.iter().map(Moved::profile).collect();
     let tool_of = |segment: &Segment| tools.get(segment.tool?);
     let may_be_deep = |segment: &Segment| {
-        let is_deep = |tool: &Moved| segment.lowest() < stock.top - 2.0 * tool.radius();
+        let is_deep = |tool: &Moved| segment.lowest() < stock.top - deepest(tool);
         follows_part(segment, subject) && tool_of(segment).is_some_and(is_deep)
     };
     let cutting = segments.iter().filter(|segment| may_be_deep(segment)).filter_map(tool_of);
@@ -48,13 +50,18 @@ pub(super) fn faults(
     for segment in segments {
         watch.advance(1)?;
         let Some(tool) = tool_of(segment).filter(|_| segment.lowest() < stock.top) else { continue };
-        let limit = may_be_deep(segment).then_some(2.0 * tool.radius());
+        let limit = may_be_deep(segment).then_some(deepest(tool));
         if let Some(Overlap { by, at: position }) = path.follow(segment, tool, limit) {
-            let fault = segment.fault(&faults::DEEP_IN_STOCK).measured(by, 2.0 * tool.radius());
+            let fault = segment.fault(&faults::DEEP_IN_STOCK).measured(by, deepest(tool));
             faults.push(Fault { position, ..fault }.warning());
         }
     }
     Ok(faults)
+}
+
+/// How deep a tool may cut at once, mm.
+fn deepest(tool: &Moved) -> f64 {
+    DEEPEST_AT_ONCE * 2.0 * tool.radius()
 }
 
 /// Whether a move cuts along the part, wherever that takes it; other passes have levels of their own, which are checked.
@@ -88,7 +95,7 @@ impl<'a> Path<'a> {
             self.settle(0.0, f64::NEG_INFINITY); // it lifts, or comes down
         }
         // where nodes are far apart, one on either side of the axis at least
-        let within = (MIDDLE * tool.radius()).max(0.51 * self.material.spacing()).min(tool.radius());
+        let within = (CUT_BY_MIDDLE * tool.radius()).max(0.51 * self.material.spacing()).min(tool.radius());
         let mut worst: Option<Overlap> = None;
         for piece in pieces(segment, LONGEST * tool.radius(), SAG * tool.radius()) {
             self.settle(tool.radius(), piece.lowest() + DEEPER * tool.radius());

@@ -8,6 +8,8 @@ mod deep;
 mod divided;
 mod overhang;
 
+pub use deep::{CUT_BY_MIDDLE, DEEPEST_AT_ONCE};
+
 use std::collections::BTreeSet;
 
 use styluscam_motion::{Cancelled, Watch};
