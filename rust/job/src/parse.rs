@@ -168,7 +168,7 @@ fn explained(written: &Value, path: &str, message: &str) -> JobError {
     JobError::document("type", path, format!("{message}{allowed}"), hint)
 }
 
-/// What is said of `[operations]`, where `[[operations]]` is meant.
+/// The message about `[operations]`, where `[[operations]]` is meant.
 const A_TABLE_FOR_A_LIST: &str = "invalid type: a table, where a list is expected";
 
 /// Serde's names of types as people call them.
