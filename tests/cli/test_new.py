@@ -454,6 +454,11 @@ def test_a_plate_is_roughed_drilled_and_finished(cli, tmp_path):
     # what is drilled is not roughed, nor is the hole across
     drilled = {face for operation in document["operations"][1:4] for face in operation["faces"]}
     assert len(drilled) == 9 and not drilled & set(rough["faces"])
+    # a drill's point leaves a cone on the shoulder of the counterbore, which finishing takes, and its wall
+    (wall,) = next(o for o in document["operations"] if o["id"] == "holes-11")["faces"]
+    assert wall in next(o for o in document["operations"] if o["kind"] == "z-level")["faces"]
+    assert wall not in rough["faces"]
+    assert any("finishing takes it" in reason for o in made.json["operations"] for reason in o["reasons"])
     # every operation states why it is there, in the job and for scripts
     text = job.read_text()
     assert [operation["id"] for operation in made.json["operations"]] == [o["id"] for o in document["operations"]]

@@ -3,7 +3,7 @@
 use styluscam_geometry::{Bvh, Frame, Mesh};
 
 use super::allowances::Allowances;
-use super::drilling::drilling;
+use super::drilling::{drilling, Drilled};
 use super::operations::{self, Milled};
 use super::part::StarterPart;
 use super::preparing::{Between, Cuts, Part};
@@ -195,9 +195,10 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>, shop: &Shop)
     let allowances = Allowances::of(&turned.mesh);
     let mut works: Vec<Work> = Vec::new();
     let drilled = drilling(&body);
-    let done: Vec<u32> = drilled.iter().flat_map(|holes| holes.faces.iter().copied()).collect();
-    let open: Vec<u32> = workable(&looks).map(|face| face.face).filter(|face| !done.contains(face)).collect();
-    let are_all = done.is_empty() && covered(&looks).next().is_none();
+    let of_holes: Vec<u32> = drilled.iter().flat_map(|holes| holes.faces.iter().copied()).collect();
+    let done: Vec<u32> = drilled.iter().flat_map(Drilled::done).collect();
+    let open: Vec<u32> = workable(&looks).map(|face| face.face).filter(|face| !of_holes.contains(face)).collect();
+    let are_all = of_holes.is_empty() && covered(&looks).next().is_none();
     let faces = Some(open).filter(|open| !are_all && open.len() <= operations::NAMES);
     let roughings = roughing((&body, shop), allowances, &drilled, faces.as_deref()).unwrap_or_else(|why| {
         reasons.push(why);
@@ -238,7 +239,7 @@ struct Milling {
 
 /// With the first of some roughings after which no finishing tool cuts deeper at once than it is wide, without rows with balls over
 /// level floors first, else with the first of all; and what comes between roughing and finishing, or why finishing cuts deep without.
-/// `done` are the faces that are drilled.
+/// `done` are the faces that are drilled, and need no finishing.
 fn milling(
     (body, looks, done): (&Body<'_>, &Hollows, &[u32]),
     part: &Part<'_>,

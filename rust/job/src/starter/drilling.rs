@@ -29,8 +29,10 @@ const SAME: f64 = 0.01;
 /// Drilling of the holes of one diameter.
 pub struct Drilled {
     pub work: Work,
-    /// Walls and floors that are done with it: no other operation is for them.
+    /// Walls and floors of the holes: they are not roughed.
     pub faces: Vec<u32>,
+    /// Those of them that are finished by milling.
+    milled: Vec<u32>,
     /// Axes in plan, mm.
     pub axes: Vec<[f64; 2]>,
     /// The widest one's radius, mm.
@@ -38,6 +40,11 @@ pub struct Drilled {
 }
 
 impl Drilled {
+    /// Faces that are done with it: no other operation is for them.
+    pub fn done(&self) -> impl Iterator<Item = u32> + '_ {
+        self.faces.iter().copied().filter(|face| !self.milled.contains(face))
+    }
+
     /// Whether a position in plan lies in one of the holes.
     pub fn holds(&self, [x, y]: [f64; 2]) -> bool {
         self.axes.iter().any(|at| libm::hypot(x - at[0], y - at[1]) <= self.radius)
@@ -92,8 +99,8 @@ fn drilled(body: &Body<'_>, diameter: f64, holes: &[Hole]) -> Option<Drilled> {
     if off {
         why.push(format!("the next drill is {wider:.2} mm narrower: ream or bore what has to have its size"));
     }
-    let (milled, done): (Vec<Hole>, Vec<Hole>) =
-        holes.iter().cloned().partition(|hole| has_flat_floor(hole) && hole.diameter() >= MILLED);
+    let is_milled = |hole: &&Hole| has_flat_floor(hole) && hole.diameter() >= MILLED;
+    let milled: Vec<Hole> = holes.iter().filter(is_milled).cloned().collect();
     if !milled.is_empty() {
         why.push("the drill's point leaves a cone on flat floors: finishing takes it".to_owned());
     } else if holes.iter().any(has_flat_floor) {
@@ -104,12 +111,14 @@ fn drilled(body: &Body<'_>, diameter: f64, holes: &[Hole]) -> Option<Drilled> {
         wider: if off { (wider * 1000.0).ceil() / 1000.0 } else { 0.0 },
         ..StarterPasses::default()
     };
-    let walls_done = done.iter().flat_map(|hole| hole.faces.iter().copied());
-    let faces = walls_done.chain(floors(body, &done)).collect();
+    let faces_of = |holes: &[Hole]| -> Vec<u32> {
+        holes.iter().flat_map(|hole| hole.faces.iter().copied()).chain(floors(body, holes)).collect()
+    };
     Some(Drilled {
         axes: holes.iter().map(|hole| hole.at).collect(),
         radius: 0.5 * widest,
-        faces,
+        faces: faces_of(holes),
+        milled: faces_of(&milled),
         work: Work {
             id: format!("holes-{diameter}"),
             serves: Serves::Holes,
