@@ -280,5 +280,5 @@ def test_summary_states_a_spindle_that_stands_where_the_tool_mills(keys: dict[st
             "machine": {"name": "grbl"},
         }
     )
-    (summary,) = sc.plan(job).summary()
+    summary = sc.plan(job).summary()[0]
     assert ("spindle" in dict(lines_of(summary, job.document))) is stands
