@@ -90,13 +90,21 @@ def test_stock_that_is_left_around_the_part_is_found() -> None:
     assert "uncleared" in kinds(asked, lines_of(job(clears="faces")))
 
 
-def test_levels_go_down_to_the_height_that_is_stated() -> None:
-    asked = job(z_bottom=0.0)
+@pytest.mark.parametrize("keys", [{}, {"z_bottom": 0.0}])
+def test_levels_go_down_to_the_foot_beside_the_part(keys: dict[str, float]) -> None:
+    """Nothing is left there for finishing."""
+    asked = job(**keys)
     lines = lines_of(asked)
     assert kinds(asked, lines) == set()
     ends = sc.read_gcode("\n".join([*lines, ""]), "linuxcnc").moves["end"]
     assert abs(ends[:, 2].min()) < 0.01
-    assert kinds(asked, lines_of(job())) == {"missing-level"}
+
+
+def test_levels_go_down_to_the_height_that_is_stated() -> None:
+    higher = job(z_bottom=1.0)
+    lines = lines_of(higher)
+    assert kinds(higher, lines) == set()
+    assert kinds(job(z_bottom=0.0), lines) == {"missing-level"}
 
 
 def test_a_level_over_a_floor_follows_the_tolerance(roughed: tuple[sc.Job, list[str]]) -> None:
