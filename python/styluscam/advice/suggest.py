@@ -186,12 +186,19 @@ def suggest(
 
 def _with_one(job: Job, operation: str) -> Job:
     """The job with one operation only."""
-    document, names = copy.deepcopy(job.document), job.engine.operation_ids()
+    names = job.engine.operation_ids()
     if operation not in names:
         hint = f"the job has {', '.join(names)}"
         raise JobError(f"no operation {operation!r}", code="no-such-operation", where="operations", hint=hint)
-    document["operations"] = [{**document["operations"][names.index(operation)], "id": operation}]
-    return Job.from_dict(document, job.folder, job.target())
+    return Job.from_dict(_with_only(job, {operation}), job.folder, job.target())
+
+
+def _with_only(job: Job, names: set[str]) -> Document:
+    """The job's document with the operations of these ids only, which they keep."""
+    document = copy.deepcopy(job.document)
+    sections = zip(job.engine.operation_ids(), document["operations"], strict=True)
+    document["operations"] = [{**section, "id": name} for name, section in sections if name in names]
+    return document
 
 
 class _Passes:
@@ -399,10 +406,7 @@ def micrometres(length_mm: float) -> str:
 
 def _planned(candidate: Candidate, job: Job, asked: list[_Asked], progress: Progress | None) -> Candidate:
     """The same with what planning the operations that are asked about with this tool found bridged."""
-    document, ids = copy.deepcopy(job.document), job.engine.operation_ids()
-    names = {each.name for each in asked}
-    sections = zip(ids, document["operations"], strict=True)
-    document["operations"] = [{**section, "id": name} for name, section in sections if name in names]
+    document = _with_only(job, {each.name for each in asked})
     for name in {operation["tool"] for operation in document["operations"]}:
         section = document["tools"][name]
         for key in (*TOOL, "library"):

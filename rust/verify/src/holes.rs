@@ -67,8 +67,7 @@ pub(crate) fn faults(segments: &[Segment], subject: &Subject, limits: &Limits) -
     for (number, operation) in subject.expected.iter().enumerate() {
         let Some(drilling) = operation.expectation.drilling() else { continue };
         let own: Vec<&Segment> = segments.iter().filter(|segment| segment.expected == Some(number)).collect();
-        // that the operation is missing is found by itself
-        let Some(last) = own.last() else { continue };
+        let Some(last) = own.last() else { continue }; // that the operation is missing is found by itself
         if drilling.rises_at_feed {
             faults.extend(without_core(&own, segments, drilling, subject, limits));
         }

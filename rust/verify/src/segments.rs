@@ -139,6 +139,11 @@ impl Segment {
         self.start.is_some_and(|s| self.end[2] < s[2] - SAME)
     }
 
+    /// Whether the tip goes straight up, or stays where it is.
+    pub fn goes_straight_up(&self) -> bool {
+        self.start.is_some_and(|start| !self.travels() && self.end[2] >= start[2])
+    }
+
     /// An error at its end.
     pub fn fault(&self, kind: &'static FaultKind) -> Fault {
         Fault::new(kind, self.index, self.line, self.end)

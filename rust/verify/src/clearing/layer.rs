@@ -264,10 +264,9 @@ impl Layer<'_> {
         let lowest = segment.lowest() - self.gap_of(own);
         // a height that is rounded to the top of the layer is not in it
         let start = segment.start.filter(|_| lowest < self.top - SLACK.max(0.5 * self.unit))?;
-        let goes_up = !segment.travels() && segment.end[2] >= start[2];
         let falls = own.descends && start[2] > self.floor + SAME_LEVEL;
         match segment.kind {
-            _ if goes_up => None,
+            _ if segment.goes_straight_up() => None,
             _ if lowest <= self.floor - SAME_LEVEL => Some(Doing::Below),
             SegmentKind::Rapid => Some(Doing::Rapid),
             SegmentKind::Plunge => Some(Doing::Enters),
