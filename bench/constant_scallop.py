@@ -61,6 +61,7 @@ def operations(scallop: float) -> dict[str, dict[str, Any]]:
 def job(part: str, *chosen: dict[str, Any]) -> sc.Job:
     """A job for a part of the fixtures."""
     common = {"tool": "ball", "tolerance": TOLERANCE, "feeds": {"cut": 1500.0, "plunge": 300.0}, "links": "low"}
+    common["spindle"] = {"mode": "fixed", "rpm": 8000.0}
     return sc.Job.from_dict(
         {
             "schema": 1,

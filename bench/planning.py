@@ -99,7 +99,9 @@ def job(kind: str, profile: dict[str, Any], pitch: float, **operation: Any) -> d
         "part": {"file": "made.stl", "units": "mm"},
         "process": {"kind": "milling"},
         "tools": {"tool": {"profile": profile}},
-        "operations": [{"kind": kind, "tool": "tool", **along, **operation}],
+        "operations": [
+            {"kind": kind, "tool": "tool", "spindle": {"mode": "fixed", "rpm": 8000.0}, **along, **operation}
+        ],
         "machine": {"name": "linuxcnc"},
     }
 

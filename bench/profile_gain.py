@@ -81,6 +81,7 @@ def job(profile: dict[str, Any], slope_deg: float) -> sc.Job:
         tool = sc.Tool.from_dict({"profile": {"diameter": DIAMETER} | profile})
         kind = {"kind": "zig-zag", "stepover": round(stepover(tool, slope_deg), 3), "angle_deg": 90.0}
     operation = {"tool": "tool", "tolerance": TOLERANCE, "feeds": {"cut": FEED, "plunge": 300.0}, "links": "low"}
+    operation["spindle"] = {"mode": "fixed", "rpm": 8000.0}
     return sc.Job.from_dict(
         {
             "schema": 1,

@@ -34,7 +34,9 @@ JOB = {
     "part": {"file": "wavy.stl", "units": "mm"},
     "process": {"kind": "milling"},
     "tools": {"ball": {"profile": {"kind": "ball", "diameter": 6.0}}},
-    "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": STEPOVER, "tolerance": 0.01}],
+    "operations": [
+        {"kind": "zig-zag", "tool": "ball", "stepover": STEPOVER, "tolerance": 0.01, "spindle": {"mode": "off"}}
+    ],
     "machine": {"name": "linuxcnc"},
 }
 SEEK = """(() => { const p = window.styluscam.player; const begun = performance.now();

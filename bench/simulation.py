@@ -29,7 +29,9 @@ def verified(part: sc.Part, kind: str, stepover: float) -> sc.Report:
         "part": {"file": "wavy.stl", "units": "mm"},
         "process": {"kind": "milling"},
         "tools": {"tool": {"profile": {"kind": kind, "diameter": 6.0}}},
-        "operations": [{"kind": "zig-zag", "tool": "tool", "stepover": stepover}],
+        "operations": [
+            {"kind": "zig-zag", "tool": "tool", "stepover": stepover, "spindle": {"mode": "fixed", "rpm": 8000.0}}
+        ],
         "machine": {"name": "linuxcnc"},
     }
     job = sc.Job.from_dict(document, part=part)

@@ -317,7 +317,7 @@ def spirals() -> Figure:
         "process": {"kind": "milling"},
         "setup": {"zero": "model"},
         "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
-        "operations": [{"kind": "spiral", "tool": "ball", "step": {"height": 1.0}}],
+        "operations": [{"kind": "spiral", "tool": "ball", "step": {"height": 1.0}, "spindle": {"mode": "off"}}],
         "machine": {"name": "linuxcnc"},
     }
     moves = sc.plan(sc.Job.from_dict(document, part=basin())).programs["main"].moves
@@ -403,15 +403,15 @@ def crossed(loop: FloatArray, axis: int, at: float) -> list[FloatArray]:
 
 def milling_job(file: Path, profile: dict[str, Any], tolerance: float) -> dict[str, Any]:
     """A job of rows over a mesh."""
+    common = {"tool": "tool", "tolerance": tolerance, "spindle": {"mode": "off"}}
     return {
         "schema": 1,
         "part": {"file": str(file), "units": "mm"},
         "process": {"kind": "milling"},
         "setup": {"zero": "model"},
         "tools": {"tool": {"profile": profile}},
-        "operations": [{"kind": "zig-zag", "tool": "tool", "stepover": 4.0, "tolerance": tolerance}],
+        "operations": [{"kind": "zig-zag", "stepover": 4.0} | common],
         "machine": {"name": "linuxcnc"},
-        "output": {"file": str(file.with_suffix(".ngc"))},
     }
 
 

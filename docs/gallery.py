@@ -46,10 +46,12 @@ class Example:
         """The job."""
         part: dict[str, Any] = {"file": str(FIXTURES / f"{self.part}.step"), **self.part_keys}
         setup = deepcopy(self.setup)
-        if self.process["kind"] != "milling":
+        common: dict[str, Any] = {"tool": "stylus", "tolerance": 0.01, "feeds": {"cut": 1500.0, "plunge": 300.0}}
+        if self.process["kind"] == "milling":
+            common["spindle"] = {"mode": "fixed", "rpm": 8000.0}
+        else:
             part["model_face"] = "tool"
             setup["sheet"] = {"thickness": 1.0, "law": self.law, **self.sheet}
-        feeds = {"cut": 1500.0, "plunge": 300.0}
         return {
             "schema": 1,
             "title": self.title,
@@ -58,7 +60,7 @@ class Example:
             "process": self.process,
             "tools": {"stylus": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}}},
             "machine": self.machine,
-            "operations": [{"tool": "stylus", "tolerance": 0.01, "feeds": feeds, **self.operation}],
+            "operations": [common | self.operation],
             **self.more,
         }
 

@@ -53,7 +53,7 @@ def regions() -> Figure:
             "part": {"file": "cups.stl", "units": "mm", "faces": ["Face2"]},
             "process": {"kind": "milling"},
             "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
-            "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 1.5, **keys}],
+            "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 1.5, "spindle": {"mode": "off"}, **keys}],
             "machine": {"name": "linuxcnc"},
         }
         moves = sc.plan(sc.Job.from_dict(document, part=cups())).programs["main"].moves

@@ -47,6 +47,7 @@ kind = "zig-zag"
 tool = "stylus"
 stepover = 2.0
 tolerance = 0.02
+spindle = { mode = "fixed", rpm = 8000 }
 """
 """A job that is done in no time."""
 

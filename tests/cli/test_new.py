@@ -105,14 +105,14 @@ def test_feeds_and_spindle_are_for_the_material_with_the_source_beside_them(part
     assert document["process"]["material"] == "steel"
     tool = document["tools"]["cutter"]
     assert (tool["profile"], tool["flutes"], tool["cutter_material"]) == (
-        {"kind": "flat", "diameter": 8.0, "tip_flat": 0.0}, 2, "carbide"
+        {"kind": "flat", "diameter": 10.0, "tip_flat": 0.0}, 2, "carbide"
     )  # fmt: skip
-    # no wider than the tool of the roughing; 230 m/min and 0.06 mm per tooth: 9151 rev/min and 1098 mm/min, rounded down
+    # no wider than the tool of the roughing; 230 m/min and 0.08 mm per tooth: 7321 rev/min, at 7300 of them 1168 mm/min
     operation = of(job, "walls")
     assert (operation["spindle"]["rpm"], operation["feeds"]["cut"], operation["feeds"]["plunge"]) == (
-        9100.0,
-        1090.0,
-        540.0,
+        7300.0,
+        1160.0,
+        580.0,
     )
     text = job.read_text().replace("\n#  ", "")
     assert re.search(r'# - source: .*atagroup.*"Unalloyed steel < 500 N/mm2"\nfeeds = ', text)
@@ -136,8 +136,8 @@ def test_a_table_of_one_s_own_is_named_in_the_job(parts, cli):
     operation = of(job, "walls")
     assert (operation["spindle"]["rpm"], operation["feeds"]["cut"]) == (
         60.0,
-        4.0,
-    )  # of 4.8: two teeth of 0.04 mm at 8 mm
+        6.0,
+    )  # two teeth of 0.05 mm
     assert "# - source: the shop's table" in job.read_text()
     # the table states nothing for roughing: it is left out, and why
     assert [operation["kind"] for operation in document["operations"]] == ["z-level", "zig-zag"]
@@ -346,7 +346,7 @@ def test_a_flat_plate_and_one_with_upright_walls_are_no_sheets_to_form(parts, cl
 def test_a_part_that_is_cut_from_below_is_turned_over(parts, cli):
     pocket = mesh_of(lambda x, _: 0.0 * x, lambda x, y: -20.0 - 2.0 * cup(x, y))
     document, reasons = made(parts, cli, "below", pocket)
-    assert document["setup"]["up"] == "-z" and "cannot be reached from +z" in reasons
+    assert document["setup"]["up"] == "-z" and "hidden from +z" in reasons
     text = (parts / "below.toml").read_text(encoding="utf-8")
     listed = dict(re.findall(r"#   (Face\d+): .* slope (\d+) to", text))
     named = [face for operation in document["operations"] for face in operation.get("faces") or ()]
@@ -382,10 +382,11 @@ def test_the_tool_fits_the_fillets(parts, cli):
     tool = document["tools"]["cutter"]
     assert tool["profile"] == {**tool["profile"], "kind": "ball", "diameter": 8.0}
     assert "a radius of 4.0" in " ".join(ran.json["reasons"])
-    # the upright sides in levels, the rest in rows, no face in both
-    assert [operation["kind"] for operation in document["operations"]] == ["pocket", "z-level", "zig-zag"]
-    _, walls, floors = (operation.get("faces") for operation in document["operations"])
-    assert not set(walls) & set(floors)
+    # the ribs' upright sides in levels, the plate's with a flat tool, for the ball would leave 4 of their 10 mm, the rest in
+    # rows, no face in two
+    assert [operation["id"] for operation in document["operations"]] == ["roughing", "flat-walls", "walls", "floors"]
+    _, outer, walls, floors = (set(operation.get("faces") or ()) for operation in document["operations"])
+    assert not walls & floors and not outer & (walls | floors) and len(outer) >= 4
 
 
 def splined(height):
@@ -492,7 +493,8 @@ def test_pockets_of_a_part_for_a_ball_are_finished_with_a_flat_tool(parts, cli):
     document = sc.Job.read(parts / "pockets.toml").document
     works = {operation["id"]: operation for operation in document["operations"]}
     profiles = {name: document["tools"][works[name]["tool"]]["profile"] for name in works}
-    assert len(works["flat-walls"]["faces"]) == 8 and 1 <= len(works["flat-floors"]["faces"]) <= 2
+    # of both pockets and of the part
+    assert len(works["flat-walls"]["faces"]) == 12 and 1 <= len(works["flat-floors"]["faces"]) <= 2
     assert profiles["flat-walls"] == profiles["flat-floors"] and profiles["floors"]["kind"] == "ball"
     assert profiles["flat-walls"]["kind"] == "flat"
     assert profiles["flat-walls"]["diameter"] <= profiles["roughing"]["diameter"]

@@ -60,6 +60,7 @@ kind = "rings"
 tool = "ball"
 ring_distance = 1.0
 tolerance = 0.01
+spindle = { mode = "fixed", rpm = 8000 }
 """
 
 
@@ -146,6 +147,7 @@ tool = "wide"
 step = { height = 1.0 }
 z_bottom = 0.0
 tolerance = 0.01
+spindle = { mode = "fixed", rpm = 8000 }
 
 [[operations]]
 kind = "zig-zag"
@@ -153,6 +155,7 @@ tool = "narrow"
 stepover = 1.0
 z_bottom = 0.0
 tolerance = 0.01
+spindle = { mode = "fixed", rpm = 8000 }
 channel = "finish"
 """
 

@@ -267,7 +267,9 @@ def test_json_of_a_cancelled_run(coarse, cli, monkeypatch):
     assert ran.err == ""
 
 
-@pytest.mark.parametrize(("keys", "stands"), [({}, True), ({"spindle": {"mode": "fixed", "rpm": 8000.0}}, False)])
+@pytest.mark.parametrize(
+    ("keys", "stands"), [({"spindle": {"mode": "off"}}, True), ({"spindle": {"mode": "fixed", "rpm": 8000.0}}, False)]
+)
 def test_summary_states_a_spindle_that_stands_where_the_tool_mills(keys: dict[str, Any], stands: bool) -> None:
     operation = {"kind": "zig-zag", "tool": "ball", "stepover": 2.0, **keys}
     job = sc.Job.from_dict(

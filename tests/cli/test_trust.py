@@ -35,6 +35,7 @@ kind = "zig-zag"
 tool = "ball"
 stepover = 2.0
 tolerance = 0.01
+spindle = { mode = "fixed", rpm = 8000 }
 """
 
 

@@ -63,6 +63,8 @@ def varied(job: dict[str, Any], variant: str, body: str, thickness: float | None
     }
     step = round(0.1 * diameter, 6)
     kept = {key: value for key, value in job["operations"][0].items() if key in ("feeds", "tolerance", "spindle")}
+    if job["process"]["kind"] == "milling":
+        kept.setdefault("spindle", {"mode": "fixed", "rpm": 8000.0})
     operation = {"kind": kind, "tool": name, **kept}
     job["operations"] = [operation | ({"step": {"height": step}} if kind == "z-level" else {"stepover": step})]
     return job

@@ -181,7 +181,9 @@ def document(
         "operations": [{"kind": kind, "tool": "tool", **pitch, **operation}],
         "machine": machine,
     }
-    if sheet is not None:
+    if sheet is None:
+        made["operations"][0].setdefault("spindle", {"mode": "off"})  # as in texts that are written by hand
+    else:
         made["process"] = {"kind": "spif"}
         made["part"]["model_face"] = sheet[1]
         made["setup"]["sheet"] = copy.deepcopy(sheet[0]) | {"max_wall_angle_deg": 75.0}

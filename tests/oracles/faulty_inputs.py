@@ -252,5 +252,7 @@ def wrong_feeds(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
 
 @fault
 def spindle_forgotten(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
-    gone = [operation.pop("spindle", None) for operation in document["operations"]]
-    return (mesh, document) if any(gone) else None
+    turned = [operation for operation in document["operations"] if "spindle" in operation]
+    for operation in turned:
+        operation["spindle"] = {"mode": "off"}
+    return (mesh, document) if turned else None

@@ -62,6 +62,7 @@ def milling_document(
     kind: str, profile: dict[str, Any], *, machine: str = "linuxcnc", **operation: Any
 ) -> dict[str, Any]:
     """The same without a sheet, for parts that are handed over as they are."""
+    operation.setdefault("spindle", {"mode": "fixed", "rpm": 8000.0})
     document = job_document("made", kind, profile, machine=machine, **operation)
     document["part"] = {"file": "made.stl", "units": "mm"}
     document["setup"] = {}

@@ -40,7 +40,7 @@ def job(name: str, chuck: str | None, *, hung: bool, **sections: Any) -> sc.Job:
     faces = CUP if name == "cone_cup" else ["Face1"]
     base: dict[str, Any] = {"process": {"kind": "spif"}, **sections, "setup": {**sections.get("setup", {}), **setup}}
     if base["process"]["kind"] == "milling":
-        base["operation"] = {"step": {"height": 4.0}}
+        base["operation"] = {"step": {"height": 4.0}, "spindle": {"mode": "fixed", "rpm": 8000.0}}
     made = document(faces, **{key: value for key, value in base.items() if key != "machines"})
     if base["process"]["kind"] == "milling":
         del made["setup"]["sheet"], made["part"]["model_face"]

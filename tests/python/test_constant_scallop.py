@@ -35,6 +35,7 @@ def job(part: str, profile: dict[str, Any], scallop: float) -> sc.Job:
                 "scallop": scallop,
                 "tolerance": TOLERANCE,
                 "feeds": {"cut": 1000.0, "plunge": 200.0},
+                "spindle": {"mode": "fixed", "rpm": 8000.0},
             }
         ],
     }

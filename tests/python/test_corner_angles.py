@@ -16,6 +16,7 @@ ROUNDING = 0.12
 
 
 ROWS = {"kind": "zig-zag", "stepover": 8.0}
+SPINDLE = {"mode": "fixed", "rpm": 8000.0}
 
 
 def job(part: str, machine: str = "linuxcnc", **keys: Any) -> sc.Job:
@@ -27,7 +28,14 @@ def job(part: str, machine: str = "linuxcnc", **keys: Any) -> sc.Job:
             "process": {"kind": "milling"},
             "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}}},
             "machine": {"name": machine},
-            "operations": [{"tool": "ball", "tolerance": 0.01, **(keys if "kind" in keys else {**ROWS, **keys})}],
+            "operations": [
+                {
+                    "tool": "ball",
+                    "tolerance": 0.01,
+                    "spindle": SPINDLE,
+                    **(keys if "kind" in keys else {**ROWS, **keys}),
+                }
+            ],
         }
     )
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_linking import MILLING, PARTS, facts, findings
+from test_linking import MILLING, PARTS, SPINDLE, facts, findings
 
 import styluscam as sc
 
@@ -31,7 +31,15 @@ def job(kind: str, machine: str = "linuxcnc", **keys: Any) -> sc.Job:
         "process": MILLING,
         "tools": {"t": {"number": 1, "profile": BALL}},
         "operations": [
-            {"tool": "t", "tolerance": 0.01, "slow_corners": True, "feeds": {"cut": FEED}, **KINDS[kind], **keys}
+            {
+                "tool": "t",
+                "tolerance": 0.01,
+                "slow_corners": True,
+                "feeds": {"cut": FEED},
+                "spindle": SPINDLE,
+                **KINDS[kind],
+                **keys,
+            }
         ],
         "machine": {"name": machine},
     }

@@ -152,7 +152,7 @@ def test_numbers_of_the_job_go_before_the_table() -> None:
 
 
 def test_without_a_material_a_job_is_as_it_was() -> None:
-    made = sc.Job(job(process={"kind": "milling"}))
+    made = sc.Job(job({"spindle": {"mode": "off"}}, process={"kind": "milling"}))
     assert feeds_of(made) == (1500.0, 300.0, None) and made.cutting_data == {}
 
 

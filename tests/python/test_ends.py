@@ -35,7 +35,7 @@ def job(mesh: Mesh, profile: dict[str, Any], faces: list[int] | None = None, **o
         "process": {"kind": "milling"},
         "setup": {"zero": "model"},
         "tools": {"tool": {"profile": profile}},
-        "operations": [{"tool": "tool", **operation}],
+        "operations": [{"tool": "tool", "spindle": {"mode": "fixed", "rpm": 8000.0}, **operation}],
         "machine": {"name": "linuxcnc"},
     }
     return sc.Job.from_dict(document, part=sc.Part.from_mesh(*mesh, face_ids=faces))

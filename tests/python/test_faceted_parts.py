@@ -19,7 +19,7 @@ def job(mesh: Mesh, profile: dict[str, Any] | None = None, **operation: Any) -> 
         "setup": {},
         "process": {"kind": "milling"},
         "tools": {"ball": {"profile": profile or {"kind": "ball", "diameter": 6.0}}},
-        "operations": [{"tool": "ball", **operation}],
+        "operations": [{"tool": "ball", "spindle": {"mode": "fixed", "rpm": 8000.0}, **operation}],
         "machine": {"name": "linuxcnc"},
     }
     return sc.Job.from_dict(document, part=sc.Part.from_mesh(*mesh))

@@ -16,6 +16,8 @@ RAPID = 0
 
 
 def job(over: float = STOCK, **keys: Any) -> sc.Job:
+    operation = {"kind": "pocket", "tool": "mill", "step": {"height": 1.0}, "tolerance": TOLERANCE}
+    operation["spindle"] = {"mode": "fixed", "rpm": 8000.0}
     document = {
         "schema": 1,
         "part": {"file": "made.stl", "units": "mm"},
@@ -23,7 +25,7 @@ def job(over: float = STOCK, **keys: Any) -> sc.Job:
         "process": {"kind": "milling"},
         "tools": {"mill": {"number": 1, "profile": {"kind": "flat", "diameter": 6.0}}},
         "machine": {"name": "linuxcnc"},
-        "operations": [{"kind": "pocket", "tool": "mill", "step": {"height": 1.0}, "tolerance": TOLERANCE} | keys],
+        "operations": [operation | keys],
     }
     return sc.Job.from_dict(document, part=sc.Part.from_mesh(*box((-20.0, -15.0, 0.0), (20.0, 15.0, TOP))))
 

@@ -27,7 +27,7 @@ GOUGE, TOLERANCE = 0.001, 0.005
 
 
 def job(part: str, kind: str, machine: str = "linuxcnc", **keys: Any) -> sc.Job:
-    operation = {**KINDS[kind], "tool": "ball", **keys}
+    operation = {**KINDS[kind], "tool": "ball", "spindle": {"mode": "fixed", "rpm": 8000.0}, **keys}
     return sc.Job.from_dict(
         {
             "schema": 1,

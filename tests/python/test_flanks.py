@@ -26,7 +26,15 @@ def report() -> sc.Report:
             "setup": {"zero": "model"},
             "process": {"kind": "milling"},
             "tools": {"mill": {"number": 1, "length": 60.0, "profile": {"kind": "flat", "diameter": 8.0}}},
-            "operations": [{"id": "blade", "kind": "flank", "tool": "mill", "faces": ["Face1"]}],
+            "operations": [
+                {
+                    "id": "blade",
+                    "kind": "flank",
+                    "tool": "mill",
+                    "faces": ["Face1"],
+                    "spindle": {"mode": "fixed", "rpm": 8000.0},
+                }
+            ],
             "machine": {"name": "linuxcnc-trunnion"},
         }
     )

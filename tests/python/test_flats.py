@@ -79,7 +79,7 @@ def test_a_floor_is_as_deep_as_the_passes_around_it() -> None:
 
 
 def test_what_is_milled_must_be_touched() -> None:
-    document = job_of("back", "constant").document
+    document = job_of("back", "constant", spindle={"mode": "off"}).document
     kept = {key: document[key] for key in ("schema", "tools", "operations", "machine")}
     milling = {**kept, "part": {"file": "tray.stl", "units": "mm"}, "process": {"kind": "milling"}}
     job = sc.Job.from_dict(milling, part=tray())

@@ -38,7 +38,7 @@ def verified(part: sc.Part, **operation: Any) -> sc.Report:
         "part": {"file": "slope.stl", "units": "mm"},
         "process": {"kind": "milling"},
         "tools": {"ball": {"profile": {"kind": "ball", "diameter": 6.0}}},
-        "operations": [{"tool": "ball", **operation}],
+        "operations": [{"tool": "ball", "spindle": {"mode": "fixed", "rpm": 8000.0}, **operation}],
         "machine": {"name": "linuxcnc"},
     }
     asked = sc.Job.from_dict(document, part=part)

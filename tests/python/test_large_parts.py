@@ -24,7 +24,15 @@ def job(mesh: Mesh, *tools: float, **operation: Any) -> sc.Job:
             f"D{d:g}": {"number": n + 1, "profile": {"kind": "ball", "diameter": d}} for n, d in enumerate(tools)
         },
         "operations": [
-            {"id": f"D{d:g}", "kind": "zig-zag", "tool": f"D{d:g}", "stepover": 2.0, **operation} for d in tools
+            {
+                "id": f"D{d:g}",
+                "kind": "zig-zag",
+                "tool": f"D{d:g}",
+                "stepover": 2.0,
+                "spindle": {"mode": "off"},
+                **operation,
+            }
+            for d in tools
         ],
         "machine": {"name": "linuxcnc"},
     }

@@ -60,6 +60,7 @@ def pits_in_a_pit() -> Mesh:
 
 
 PARTS = {"two": two_pits(), "nested": pits_in_a_pit()}
+SPINDLE = {"mode": "fixed", "rpm": 8000.0}
 
 
 def job(part: str, machine: str = "linuxcnc", process: dict[str, Any] | None = None, **keys: Any) -> sc.Job:
@@ -74,6 +75,7 @@ def job(part: str, machine: str = "linuxcnc", process: dict[str, Any] | None = N
     }
     if document["process"]["kind"] == "milling":
         del document["setup"]["sheet"]
+        document["operations"][0]["spindle"] = SPINDLE
     else:
         document["part"]["model_face"] = "tool"
     return sc.Job.from_dict(document, part=sc.Part.from_mesh(*PARTS[part]))
@@ -398,7 +400,7 @@ def test_a_frame_that_goes_down_does_not_come_up_again() -> None:
 def test_rows_around_holes_are_done_area_by_area() -> None:
     rows = {"kind": "zig-zag", "stepover": 2.0, "boundary": {"slope_deg": [0.0, 10.0]}}
     document = job("plate", process=MILLING).to_dict()
-    document["operations"] = [{"tool": "t", "tolerance": 0.01, **rows}]
+    document["operations"] = [{"tool": "t", "tolerance": 0.01, "spindle": SPINDLE, **rows}]
     asked = sc.Job.from_dict(document, part=sc.Part.from_mesh(*PARTS["plate"]))
     plan = sc.plan(asked)
     by_nearest = re.search(r"([\d.]+) mm with the nearest", facts(plan)["between_passes"].words)
@@ -421,7 +423,16 @@ def test_rows_are_linked_across_a_hole_at_a_feed_where_the_part_stands_no_higher
                 "process": {"kind": "milling", "max_unreached": 1.0},
                 "setup": {"zero": "model", "clearance": 5.0, "stock": {"kind": "box", "sides": 1.0}},
                 "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
-                "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 1.0, "links": "low", "z_bottom": 2.4}],
+                "operations": [
+                    {
+                        "kind": "zig-zag",
+                        "tool": "ball",
+                        "stepover": 1.0,
+                        "links": "low",
+                        "z_bottom": 2.4,
+                        "spindle": SPINDLE,
+                    }
+                ],
                 "machine": {"name": "linuxcnc"},
             }
         )

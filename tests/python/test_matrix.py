@@ -87,6 +87,7 @@ def job_of(
     face = more.get("face", "back" if process == MALE else "tool")
     sheet = {"thickness": more.get("thickness", 1.0), "law": more.get("law", "constant")}
     forms = process != MILLING
+    spindle = {} if forms else {"spindle": {"mode": "fixed", "rpm": 8000.0}}
     machine = {"name": more.get("machine", "linuxcnc")}
     document: dict[str, Any] = {
         "schema": 1,
@@ -94,7 +95,7 @@ def job_of(
         "setup": {"sheet": sheet} if forms else {},
         "process": process,
         "tools": {"tool": {"profile": more.get("profile", BALL)}},
-        "operations": [{"tool": "tool", "tolerance": TOLERANCE, **operation} for operation in operations],
+        "operations": [{"tool": "tool", "tolerance": TOLERANCE, **spindle, **operation} for operation in operations],
         "machine": machine,
     }
     if process == DSIF:

@@ -12,6 +12,7 @@ import styluscam as sc
 
 STEPOVER = 3.0
 SIDES = 96
+SPINDLE = {"mode": "fixed", "rpm": 8000.0}
 Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 
 
@@ -50,7 +51,7 @@ OPERATIONS = {
 def job_of(part: str, kind: str, smallest_feature: float, keys: dict[str, Any] | None = None) -> sc.Job:
     """A part milled with a ball that is as wide as the rows are apart."""
     vertices, triangles = PARTS[part]
-    operation = {"tool": "ball", "smallest_feature": smallest_feature, **(keys or OPERATIONS[kind])}
+    operation = {"tool": "ball", "smallest_feature": smallest_feature, "spindle": SPINDLE, **(keys or OPERATIONS[kind])}
     document = {
         "schema": 1,
         "part": {"file": f"{part}.stl", "units": "mm"},
@@ -148,7 +149,7 @@ def test_no_pass_is_wanted_at_the_sharp_upper_edge_of_a_wall(step: float) -> Non
         "part": {"file": "rib.stl", "units": "mm", "faces": ["Face2", "Face4"]},
         "process": {"kind": "milling", "max_unreached": 0.9},
         "tools": {"ball": {"profile": {"kind": "ball", "diameter": 12.0}}},
-        "operations": [{"tool": "ball", "kind": "z-level", "step": {"height": step}}],
+        "operations": [{"tool": "ball", "kind": "z-level", "step": {"height": step}, "spindle": SPINDLE}],
         "machine": {"name": "linuxcnc"},
     }
     job = sc.Job.from_dict(document, part=sc.Part.from_mesh(vertices, triangles, face_ids=faces))
@@ -166,7 +167,13 @@ def levels_job(
         "process": {"kind": "milling", "max_unreached": 0.99},
         "tools": {"cutter": {"profile": {"kind": kind, "diameter": 6.0}}},
         "operations": [
-            {"tool": "cutter", "kind": "z-level", "step": {"height": step}, "smallest_feature": feature},
+            {
+                "tool": "cutter",
+                "kind": "z-level",
+                "step": {"height": step},
+                "smallest_feature": feature,
+                "spindle": SPINDLE,
+            },
         ],
         "machine": {"name": "linuxcnc"},
     }

@@ -140,7 +140,7 @@ def path(file: Path, faces: Any, operation: dict[str, Any]) -> np.ndarray:
         "setup": {"zero": "model"},
         "process": {"kind": "milling"},
         "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 6.0}}},
-        "operations": [{"id": "one", "tool": "ball", **operation}],
+        "operations": [{"id": "one", "tool": "ball", "spindle": {"mode": "fixed", "rpm": 8000.0}, **operation}],
         "machine": {"name": "linuxcnc"},
     }
     return sc.plan(sc.Job.from_dict(job)).programs["main"].positions

@@ -34,7 +34,15 @@ def job(part: sc.Part, profile: dict[str, Any] | None = None, **keys: Any) -> sc
         "process": {"kind": "milling"},
         "tools": {"mill": {"profile": profile or {"kind": "ball", "diameter": 2.0 * RADIUS}}},
         "machine": {"name": "linuxcnc", "options": {"decimals": 4}},
-        "operations": [{"kind": "pencil", "tool": "mill", "tolerance": TOLERANCE, **keys}],
+        "operations": [
+            {
+                "kind": "pencil",
+                "tool": "mill",
+                "tolerance": TOLERANCE,
+                "spindle": {"mode": "fixed", "rpm": 8000.0},
+                **keys,
+            }
+        ],
     }
     return sc.Job.from_dict(document, part=part)
 

@@ -119,6 +119,7 @@ library = "shop.json:b"
 kind = "zig-zag"
 tool = "a"
 stepover = 1.0
+spindle = { mode = "fixed", rpm = 8000 }
 [machine]
 name = "linuxcnc"
 """

@@ -30,7 +30,7 @@ def job(file: str, faces: list[str], kind: str = "z-level", part: Any = None, **
         "process": {"kind": "milling"},
         "tools": {"tool": {"profile": BALL, **more.pop("tool", {})}},
         "machine": {"name": more.pop("machine", "linuxcnc")},
-        "operations": [{"kind": kind, "tool": "tool", **pitch, **more}],
+        "operations": [{"kind": kind, "tool": "tool", "spindle": {"mode": "fixed", "rpm": 8000.0}, **pitch, **more}],
     }
     return sc.Job.from_dict(document, folder=FIXTURES, part=part)
 

@@ -36,7 +36,8 @@ def write_stl(mesh: Mesh, path: Path) -> None:
 
 def job_of(folder: Path, mesh: Mesh = BLOCK, title: str = "") -> sc.Job:
     write_stl(mesh, folder / "made.stl")
-    document = milling_document("zig-zag", {"kind": "ball", "diameter": 2 * RADIUS}, stepover=STEPOVER, angle_deg=0.0)
+    ball, off = {"kind": "ball", "diameter": 2 * RADIUS}, {"mode": "off"}
+    document = milling_document("zig-zag", ball, stepover=STEPOVER, angle_deg=0.0, spindle=off)
     return sc.Job.from_dict({**document, "title": title}, folder)
 
 

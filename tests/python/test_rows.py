@@ -32,7 +32,16 @@ def job(part: str, machine: str = "linuxcnc", faces: Any = None, **keys: Any) ->
             "process": {"kind": "milling"},
             "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}}},
             "machine": {"name": machine},
-            "operations": [{"kind": "zig-zag", "tool": "ball", "stepover": 2.0, "tolerance": TOLERANCE, **keys}],
+            "operations": [
+                {
+                    "kind": "zig-zag",
+                    "tool": "ball",
+                    "stepover": 2.0,
+                    "tolerance": TOLERANCE,
+                    "spindle": {"mode": "fixed", "rpm": 8000.0},
+                    **keys,
+                }
+            ],
         }
     )
 

@@ -81,7 +81,7 @@ def job_of(part: sc.Part) -> sc.Job:
             "part": {"file": str(BLADE), "faces": ["Face1"]},
             "process": {"kind": "milling"},
             "tools": {"mill": {"profile": {"kind": "flat", "diameter": 8.0}, "length": 60.0}},
-            "operations": [{"kind": "flank", "tool": "mill"}],
+            "operations": [{"kind": "flank", "tool": "mill", "spindle": {"mode": "fixed", "rpm": 8000.0}}],
             "machine": {"name": "linuxcnc-trunnion"},
         }
     )

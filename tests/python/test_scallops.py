@@ -27,7 +27,13 @@ def job(part: str, operation: dict[str, Any], *, sheet: bool = True) -> sc.Job:
         "tools": {"ball": {"number": 1, "profile": {"kind": "ball", "diameter": 10.0}}},
         "machine": {"name": "linuxcnc"},
         "operations": [
-            {"tool": "ball", "tolerance": TOLERANCE, "feeds": {"cut": 1000.0, "plunge": 200.0}, **operation}
+            {
+                "tool": "ball",
+                "tolerance": TOLERANCE,
+                "feeds": {"cut": 1000.0, "plunge": 200.0},
+                "spindle": {"mode": "fixed", "rpm": 8000.0},
+                **operation,
+            }
         ],
     }
     if sheet:

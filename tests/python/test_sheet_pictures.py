@@ -174,7 +174,9 @@ def test_milling_has_no_sheet() -> None:
             "process": {"kind": "milling"},
             "tools": {"a": {"profile": {"kind": "ball", "diameter": 6.0}}},
             "machine": {"name": "linuxcnc"},
-            "operations": [{"kind": "z-level", "tool": "a", "step": {"height": 6.0}}],
+            "operations": [
+                {"kind": "z-level", "tool": "a", "step": {"height": 6.0}, "spindle": {"mode": "fixed", "rpm": 8000.0}}
+            ],
         },
         FIXTURES,
     )

@@ -25,7 +25,9 @@ def document(part: dict[str, Any], profile: dict[str, Any], forming: bool, pitch
         "part": {**part, **({"model_face": "back"} if forming else {})},
         **(sheet if forming else milling),
         "tools": {"tool": {"number": 1, "profile": profile}},
-        "operations": [{"kind": "spiral", "tool": "tool", "step": {"height": pitch}}],
+        "operations": [
+            {"kind": "spiral", "tool": "tool", "step": {"height": pitch}, "spindle": {"mode": "fixed", "rpm": 8000.0}}
+        ],
         "machine": {"name": "linuxcnc"},
     }
 

@@ -34,7 +34,8 @@ def job(*operations: dict[str, Any], forming: bool = False, machine: str = "linu
             "wide": {"number": 2, "profile": {"kind": "ball", "diameter": 6.0}},
         },
         "operations": [
-            {"kind": "z-level", "tool": "ball", "step": {"height": 1.0}, **one} for one in operations or ({},)
+            {"kind": "z-level", "tool": "ball", "step": {"height": 1.0}, "spindle": {"mode": "off"}, **one}
+            for one in operations or ({},)
         ],
         "machine": {"name": machine},
     }

@@ -30,7 +30,15 @@ def job(part: sc.Part, process: str = "milling", **operation: Any) -> sc.Job:
         "process": {"kind": process},
         "setup": {"sheet": {"thickness": 1.0}} if process == "spif" else {},
         "tools": {"ball": {"profile": {"kind": "ball", "diameter": 4.0}}},
-        "operations": [{"tool": "ball", "step": {"height": 1.0}, "tolerance": 0.01, **operation}],
+        "operations": [
+            {
+                "tool": "ball",
+                "step": {"height": 1.0},
+                "tolerance": 0.01,
+                "spindle": {"mode": "fixed", "rpm": 8000.0},
+                **operation,
+            }
+        ],
         "machine": {"name": "linuxcnc"},
     }
     return sc.Job.from_dict(document, part=part)

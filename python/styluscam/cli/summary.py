@@ -86,7 +86,7 @@ def _standing_spindle(job: Document) -> list[tuple[str, str]]:
         return []
     operations = job["operations"]
     standing = sum(operation["spindle"]["mode"] == "off" for operation in operations)
-    words = f"OFF in {standing} of {counted(len(operations), 'operation')}: state spindle, or process.material"
+    words = f"OFF in {standing} of {counted(len(operations), 'operation')}, as stated: switch it on by hand"
     return [("spindle", words)] if standing else []
 
 

@@ -28,6 +28,7 @@ fn job(faces: &str) -> JobDocument {
         tolerance = 0.01
         step = {{ height = 0.5 }}
         feeds = {{ cut = 600.0, plunge = 100.0 }}
+        spindle = {{ mode = "off" }}
         "#
     ))
     .unwrap()

@@ -108,7 +108,7 @@ pub struct OperationKeys {
     #[serde(default)]
     #[schemars(extend("x-not-of" = ["flank", "drill", "helix-bore", "chamfer"]))]
     pub slow_corners: bool,
-    /// The spindle.
+    /// The spindle. Where tools cut it must be stated, unless `process.material` is: its speed then follows from that.
     #[serde(default)]
     #[schemars(extend("x-example" = "{ mode = \"off\" }"))]
     pub spindle: Spindle,

@@ -282,8 +282,7 @@ fn best_side(sides: &[Side; 6]) -> (UpAxis, Option<String>) {
     if above.hidden <= HIDDEN {
         return (above.up, None);
     }
-    let hidden =
-        format!("{percent} of the surface cannot be reached from above (it faces down, or lies under the rest)");
+    let hidden = format!("{percent} of the surface is hidden from above (it faces down, or lies under the rest)");
     let name = best.up.name();
     if best.up == above.up {
         return (above.up, Some(format!("{hidden}, and no other side hides less: what is left may take a second job")));
@@ -293,11 +292,10 @@ fn best_side(sides: &[Side; 6]) -> (UpAxis, Option<String>) {
         return (above.up, Some(words));
     }
     if !is_upright(best.up) && above.hidden <= ON_SIDE {
-        let words = format!("{hidden}; from {name} it would be {other}: setup.up = \"{name}\" mills that side");
+        let words = format!("{hidden}; from {name} {other} would be: setup.up = \"{name}\" mills that side");
         return (above.up, Some(words));
     }
-    let words =
-        format!("{percent} of the surface cannot be reached from +z, {other} from {name}: setup.up turns the part so");
+    let words = format!("{percent} of the surface is hidden from +z, {other} from {name}: setup.up turns the part so");
     (best.up, Some(words))
 }
 

@@ -49,17 +49,17 @@ const WORTHWHILE: f64 = 0.95;
 const TRIED: usize = 2;
 /// Share of the faces beyond which the tool is no tool for the part.
 const MOST_LEFT: f64 = 0.3;
-/// Places of a floor at which it is asked what a ball leaves there,
-const FLOOR_PLACES: usize = 200;
-/// the share of a floor that it may leave,
-const FLOOR_LEFT: f64 = 0.05;
+/// Points of a floor at which it is asked what a ball leaves there,
+const FLOOR_POINTS: usize = 200;
+/// the share of a floor, or of a wall's height, that it may leave,
+const BALL_LEAVES: f64 = 0.05;
 /// and how much less a flat tool must leave for the floor to be its.
 const FLAT_LEAVES: f64 = 0.5;
 /// Why levels and rows are there.
 const WALLS: &str = "finishing of upright and steep faces, in levels";
 const FLOORS: &str = "finishing of floors and gentle slopes, in rows";
 const FLAT_WALLS: &str =
-    "finishing of upright walls down to what lies before them, in levels, with a flat tool: a ball does not touch them";
+    "finishing of upright walls down to what lies before them, in levels, with a flat tool: a ball leaves its own radius at their foot";
 const FLAT_FLOORS: &str =
     "finishing of level floors up to the walls, in rows, with a flat tool: a ball leaves much there";
 /// Levels at most.
@@ -136,14 +136,14 @@ pub fn milling((body, shop): (&Body<'_>, &Shop), looks: &Hollows, done: &[u32], 
     }
     let by_face = ByFace::of(body);
     let allowed = ProcessKeys::default().max_unreached;
-    let mut milled = worked(&by_face, &seen, fitting, words);
+    let mut milled = worked(&by_face, (&seen, true), fitting, words);
     let mut left = by_face.share_left(&milled);
     let (mut diameter, mut in_vain) = (fitting.diameter, 0);
     while left > SURE * allowed && in_vain < TRIED {
         let Some(smaller) = sizes::next_smaller(&Cutter { diameter, ..fitting }, body.mesh(), shop) else { break };
         diameter = smaller;
         let words = format!("the tool, {diameter} mm wide: wider tools reach less of the faces");
-        let smaller = worked(&by_face, &seen, Cutter { diameter, ..fitting }, words);
+        let smaller = worked(&by_face, (&seen, true), Cutter { diameter, ..fitting }, words);
         let share = by_face.share_left(&smaller);
         in_vain += 1;
         if share <= WORTHWHILE * left {
@@ -187,23 +187,24 @@ fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &C
             return false;
         }
         if is_wall(face) {
-            let is_left = face.vertical >= PRISMATIC && !milled.names(face);
-            return is_left && fits(face, flat) && by_face.is_touched(face, flat, None);
+            let is_left = !milled.names(face) || by_face.share_at_foot(face, &milled.tool) > BALL_LEAVES;
+            return face.vertical >= PRISMATIC && is_left && fits(face, flat) && by_face.is_touched(face, flat, None);
         }
         let leaves = |reach: &ToolReach<'_>| {
-            reach.share_left(by_face.of_face(face.face), FLOOR_PLACES, 0.5 * TOUCHED * milled.tool.diameter)
+            reach.share_left(by_face.of_face(face.face), FLOOR_POINTS, 0.5 * TOUCHED * milled.tool.diameter)
         };
         let by_ball = if face.flat >= PRISMATIC { leaves(&ball_reach) } else { 0.0 };
-        by_ball > FLOOR_LEFT && leaves(&flat_reach) <= FLAT_LEAVES * by_ball
+        by_ball > BALL_LEAVES && leaves(&flat_reach) <= FLAT_LEAVES * by_ball
     };
     let (of_flat, rest): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().copied().partition(is_for_flat);
     if area(&of_flat) < WORTH * area(seen) || of_flat.len() > NAMES {
         return None;
     }
     let words = milled.reasons.first().cloned().unwrap_or_default();
-    let mut both = worked(by_face, &rest, milled.tool, words);
-    if rest.iter().any(|face| milled.names(face) && !both.names(face)) {
-        return None; // too little is left for the ball's rows
+    let mut both = worked(by_face, (&rest, false), milled.tool, words);
+    let is_empty = both.works.iter().any(|work| work.faces.as_ref().is_some_and(Vec::is_empty));
+    if is_empty || rest.iter().any(|face| milled.names(face) && !both.names(face)) {
+        return None; // too little is left for the ball
     }
     let share = by_face.share_left(&both);
     let mesh = by_face.body.mesh();
@@ -226,8 +227,8 @@ fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &C
     Some((both, share))
 }
 
-/// Rows, levels, or both for the faces seen, with a tool.
-fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String) -> Milled {
+/// Rows, levels, or both for the faces seen, with a tool; rows over the whole part only where these `are_all` that is finished.
+fn worked(by_face: &ByFace<'_>, (seen, are_all): (&[&FaceLook], bool), tool: Cutter, words: String) -> Milled {
     let mesh = by_face.body.mesh();
     let whole = area(seen);
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| is_wall(face));
@@ -253,6 +254,7 @@ fn worked(by_face: &ByFace<'_>, seen: &[&FaceLook], tool: Cutter, words: String)
         ),
         (true, false) => (vec![levels(numbers(&open))], "levels: all faces to be cut are walls"),
         (false, _) if !few => (vec![rows(None)], "rows over the whole part: it has too many faces to name them"),
+        (false, _) if !are_all => (vec![rows(numbers(&floors))], "rows: they serve floors and slopes"),
         (false, _) if !open.is_empty() || !narrow.is_empty() || !low.is_empty() => {
             (vec![rows(None)], "rows over the whole part: few of its walls suit levels")
         }
@@ -294,21 +296,29 @@ impl<'a> ByFace<'a> {
 
     /// Whether the tool's side touches an upright face while its tip stays above what lies in front of it.
     fn is_touched(&self, face: &FaceLook, tool: &Cutter, reach: Option<&ToolReach<'_>>) -> bool {
-        let (body, mesh) = (self.body, self.body.mesh());
-        let side = match tool.shape {
-            Shape::Ball => 0.5 * tool.diameter,
-            Shape::Flat | Shape::Drill => 0.0,
-        };
-        let floor_before = |triangle: &usize| {
-            let [a, b, c] = mesh.corners(*triangle);
-            let axis = (a + b + c) / 3.0 + 0.5 * tool.diameter * mesh.normal(*triangle);
-            body.height_at(axis.x, axis.y).unwrap_or(self.foot)
-        };
-        let own = self.of_face(face.face);
-        let few = own.iter().step_by(own.len().div_ceil(LOOKED_AT).max(1));
-        let has_room = few.map(floor_before).any(|floor| face.heights[1] - floor > 1.2 * side);
-        let touches = |reach: &ToolReach<'_>| reach.share_left(own, LOOKED_AT, TOUCHED * side) < 1.0;
+        let side = side(tool);
+        let own = some_of(self.of_face(face.face));
+        let has_room =
+            own.map(|triangle| self.floor_before(triangle, tool)).any(|floor| face.heights[1] - floor > 1.2 * side);
+        let touches =
+            |reach: &ToolReach<'_>| reach.share_left(self.of_face(face.face), LOOKED_AT, TOUCHED * side) < 1.0;
         has_room && reach.is_none_or(touches)
+    }
+
+    /// Share of an upright face's height that the tool's side does not touch over the lowest of what lies in front of it.
+    fn share_at_foot(&self, face: &FaceLook, tool: &Cutter) -> f64 {
+        let floors = some_of(self.of_face(face.face)).map(|triangle| self.floor_before(triangle, tool));
+        let lowest = floors.fold(f64::INFINITY, f64::min) + side(tool);
+        let [low, high] = face.heights;
+        ((lowest - low) / (high - low)).clamp(0.0, 1.0)
+    }
+
+    /// Height of what lies in front of an upright triangle, at the axis of a tool that touches it, mm.
+    fn floor_before(&self, triangle: usize, tool: &Cutter) -> f64 {
+        let mesh = self.body.mesh();
+        let [a, b, c] = mesh.corners(triangle);
+        let axis = (a + b + c) / 3.0 + 0.5 * tool.diameter * mesh.normal(triangle);
+        self.body.height_at(axis.x, axis.y).unwrap_or(self.foot)
     }
 
     /// Share of the faces to which the tool does not get, by the verifier's measure, but for what the program's moves leave where
@@ -325,6 +335,19 @@ impl<'a> ByFace<'a> {
         let radius = 0.5 * milled.tool.diameter;
         self.reach(&milled.tool).map_or(0.0, |reach| reach.share_left(&triangles, PLACES, NO_ROOM * radius))
     }
+}
+
+/// Height over its tip from which a tool is as wide as it gets, mm.
+fn side(tool: &Cutter) -> f64 {
+    match tool.shape {
+        Shape::Ball => 0.5 * tool.diameter,
+        Shape::Flat | Shape::Drill => 0.0,
+    }
+}
+
+/// Some of a face's triangles, evenly.
+fn some_of(triangles: &[usize]) -> impl Iterator<Item = usize> + '_ {
+    triangles.iter().copied().step_by(triangles.len().div_ceil(LOOKED_AT).max(1))
 }
 
 /// What no tool from above gets to, in words: holes across, undercuts.

@@ -12,6 +12,11 @@ use crate::operations::{Serves, StarterPasses, ENGAGEMENT_DEG};
 
 /// Nodes along the longer side of the stock in plan at which it is looked at how deep a tool gets.
 const NODES: f64 = 48.0;
+/// What stands thinner than this along walls does not count, in distances between nodes: how much of it a tool seems to leave depends on where
+/// the nodes lie.
+const SKIN: f64 = 1.0;
+/// A tool that gets wherever a node is, mm.
+const NEEDLE: f64 = 0.01;
 /// The widest tool is taken that clears this share of what any of them clears.
 const ENOUGH: f64 = 0.9;
 /// Widest tool, as a share of the stock's smaller side.
@@ -97,7 +102,9 @@ pub fn roughing(
     let [smaller, larger] = nodes.stock_sides();
     let narrowest = (THINNEST * larger).clamp(STURDY, WIDEST_IN_ONE_PIECE);
     let sizes = shop.between([narrowest, WIDEST * smaller], Shape::Flat);
-    let tried: Vec<Cleared> = sizes.filter_map(|diameter| cleared(&nodes, diameter)).collect();
+    let needle = Cutter { shape: Shape::Flat, diameter: NEEDLE }.made();
+    let part = needle.map_or_else(Vec::new, |needle| nodes.tips(&nodes.envelope(&needle, 0.0), 0));
+    let tried: Vec<Cleared> = sizes.filter_map(|diameter| cleared((&nodes, &part), diameter)).collect();
     let most = tried.iter().map(|cleared| cleared.volume).fold(0.0, f64::max);
     let enough = tried.iter().position(|cleared| cleared.volume > 0.0 && cleared.volume >= ENOUGH * most);
     let fitting = enough.and_then(|last| tried.get(..=last)).unwrap_or(&[]);
@@ -106,9 +113,14 @@ pub fn roughing(
     let Some((number, chosen)) = number.and_then(|number| Some((number, fitting.get(number)?))) else {
         return Err("no roughing: no tool that suits the part's size gets to stock over it".to_owned());
     };
-    let width = if number + 1 < fitting.len() {
-        "narrower ones get to more stock, and would take hours: what it leaves in narrow spaces is cut by finishing"
-            .to_owned()
+    let narrower = fitting.last().filter(|_| number + 1 < fitting.len());
+    let width = if let Some(narrower) = narrower {
+        format!(
+            "one of {} mm would get to {} more stock, along a path {:.1} times as long: what this one leaves is cut by finishing",
+            narrower.cutter.diameter,
+            sizes::percent(narrower.volume / chosen.volume - 1.0),
+            narrower.way() / chosen.way()
+        )
     } else if number == 0 {
         "the widest that suits the part's size".to_owned()
     } else {
@@ -121,18 +133,18 @@ pub fn roughing(
     Ok(first.chain(narrower.map(|cleared| cleared.work(&gap, faces))).collect())
 }
 
-/// What a flat tool clears of the stock; none for one that cannot be made, or that gets to nothing.
-fn cleared(nodes: &StockNodes<'_>, diameter: f64) -> Option<Cleared> {
+/// What a flat tool clears of the stock over a part with so high points at its nodes; none for one that cannot be made, or that gets to nothing.
+fn cleared((nodes, part): (&StockNodes<'_>, &[f64]), diameter: f64) -> Option<Cleared> {
     let cutter = Cutter { shape: Shape::Flat, diameter };
     let leave = to_leave(diameter);
     let tool = cutter.made()?;
-    let front = nodes.front(&tool, 0.0);
+    let front = nodes.front(&tool, SKIN);
     let envelope = nodes.envelope(&tool, leave);
     let tips = nodes.tips(&envelope, front.reach());
     // where nodes are farther apart than the tool is wide, none of those beside the stock is among them
     let beside = if front.reach() == 0 { nodes.tips(&envelope, 1) } else { Vec::new() };
     let depth = nodes.top - tips.iter().chain(&beside).copied().fold(nodes.top, f64::min);
-    let volume = nodes.volume(nodes.swept(&tips, &front));
+    let volume = nodes.volume(nodes.swept(&tips, &front).zip(part).map(|(swept, part)| swept.max(*part)));
     (depth > leave).then_some(Cleared { cutter, volume, leave, depth })
 }
 

@@ -127,13 +127,14 @@ impl<'a> StockNodes<'a> {
     /// The middle of a tool's front, up to a radius, mm.
     pub fn middle(&self, tool: &Tool, within: f64) -> Front {
         let (cutter, radius) = (tool.cutter(), 0.5 * tool.diameter());
-        let reach = (within / self.apart) as usize;
+        let nodes = within / self.apart;
+        let reach = nodes as usize;
         let around = (0..=2 * reach).flat_map(|row| (0..=2 * reach).map(move |column| [row, column]));
         let height = |at: [usize; 2]| {
             let [row, column] = at.map(|i| i.abs_diff(reach));
             let square = row * row + column * column;
             let off = (square as f64).sqrt() * self.apart;
-            (square <= reach * reach).then(|| (at, cutter.height_at_radius(off.min(radius))))
+            (square as f64 <= nodes * nodes).then(|| (at, cutter.height_at_radius(off.min(radius))))
         };
         Front { reach, heights: around.filter_map(height).collect() }
     }

@@ -1,6 +1,6 @@
 //! Jobs that are refused: each error with its code, and the path of the key.
 
-use super::setup::{levels, with};
+use super::setup::{levels, milling, with};
 
 /// Code and path of the error of a text.
 fn refused(text: &str) -> (String, String) {
@@ -45,6 +45,20 @@ fn keys_that_exclude_each_other_are_refused_at_the_key() {
 }
 
 #[test]
+fn a_cutter_whose_spindle_is_not_stated_is_refused_unless_it_follows_from_the_material() {
+    let stated = "spindle = { mode = \"off\" }";
+    let without = with(&levels(), stated, "");
+    assert_eq!(refused(&without), ("missing".to_owned(), "operations[0].spindle".to_owned()));
+    let second = format!("{}\n[[operations]]\ntool = \"a\"\ntolerance = 0.01\n{}", levels(), super::setup::LEVELS);
+    assert_eq!(refused(&second).1, "operations[1].spindle");
+    let material = with(&without, "kind = \"milling\"", "kind = \"milling\", material = \"aluminium\"");
+    crate::from_toml(&material).expect("its spindle follows from the material");
+    let sheet = "setup = { sheet = { thickness = 1.0 } }\nmachine = {";
+    let text = with(&with(&without, "kind = \"milling\"", "kind = \"spif\""), "machine = {", sheet);
+    crate::from_toml(&with(&text, "units = \"mm\"", "units = \"mm\", model_face = \"tool\"")).expect("a stylus slides");
+}
+
+#[test]
 fn a_number_where_a_table_is_expected_is_answered_with_a_table() {
     for (key, expected) in [
         ("step = 1.0", "a table is expected; allowed: a table like { height = 0.5 }"),
@@ -59,7 +73,8 @@ fn a_number_where_a_table_is_expected_is_answered_with_a_table() {
         ),
         ("step = { height = 1.0 }\nlinks = 1.0", "a word in quotes is expected; allowed: \"low\", \"clearance\""),
     ] {
-        let error = crate::from_toml(&with(&levels(), "step = { height = 1.0 }", key)).map(|_| ()).expect_err(key);
+        let text = milling(&format!("kind = \"z-level\"\n{key}"));
+        let error = crate::from_toml(&text).map(|_| ()).expect_err(key);
         assert!(error.to_string().contains(expected), "{error}");
     }
 }

@@ -83,7 +83,9 @@ fn an_operation_s_own_faces_go_before_the_part_s() {
 
 #[test]
 fn tools_are_listed_in_the_order_of_their_first_use() {
-    let more = "[[operations]]\ntool = \"b\"\nkind = \"zig-zag\"\nstepover = 1.0\n[[operations]]\ntool = \"a\"\n";
+    let stands = "spindle = { mode = \"off\" }\n";
+    let rows = format!("[[operations]]\ntool = \"b\"\nkind = \"zig-zag\"\nstepover = 1.0\n{stands}");
+    let more = format!("{rows}[[operations]]\ntool = \"a\"\n{stands}");
     let text =
         with(&levels(), "[tools.a]", "[tools.b]\nnumber = 7\nprofile = { kind = \"flat\", diameter = 2.0 }\n[tools.a]");
     let job = job(&format!("{text}\n{more}{LEVELS}"));

@@ -34,8 +34,9 @@ fn walls(vertices: &[Vector]) -> Curves {
     Curves { edges: Vec::new(), ruled: (3..).zip((0..4).map(wall)).collect() }
 }
 
-/// A milling job with one ball of 3 mm, whose operation has these lines besides its tool and tolerance.
+/// A milling job with one ball of 3 mm, whose operation has these lines besides its tool and tolerance; its spindle stands unless they state one.
 pub fn milling(operation: &str) -> String {
+    let spindle = if operation.contains("spindle") { "" } else { "spindle = { mode = \"off\" }" };
     format!(
         r#"
 schema = 1
@@ -47,6 +48,7 @@ profile = {{ kind = "ball", diameter = 3.0 }}
 [[operations]]
 tool = "a"
 tolerance = 0.01
+{spindle}
 {operation}
 "#
     )
