@@ -78,7 +78,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     shutil.copytree(
         CHECKOUT / "python" / "styluscam", package / "styluscam", ignore=shutil.ignore_patterns("*.so", "__pycache__")
     )
-    shutil.copy(TARGET / "debug" / "lib_engine.so", package / "styluscam" / "_engine.abi3.so")
+    shutil.copy(TARGET / "quick" / "lib_engine.so", package / "styluscam" / "_engine.abi3.so")
     return package
 
 

@@ -282,3 +282,10 @@ def test_what_comes_in_need_not_be_contiguous_or_float(wide_part: sc.Part) -> No
     # other positions, other neighbours to begin the search from: the same to rounding
     assert np.abs(sc.drop_cutter(wide_part, tool, points[::2]) - as_floats[::2]).max() < 1e-13
     assert (sc.drop_cutter(wide_part, tool, points.tolist()) == as_floats).all()
+    # beside multiples of their size in memory, as `numpy.frombuffer` may leave them
+    data = b"." + points.astype(np.float64).tobytes()
+    beside = np.frombuffer(data, np.float64, points.size, 1).reshape(points.shape)
+    assert not beside.flags.aligned
+    assert (sc.drop_cutter(wide_part, tool, beside) == as_floats).all()
+    slopes = np.frombuffer(b"." + np.linspace(0.0, 1.0, 9).tobytes(), np.float64, 9, 1)
+    assert (tool.radius_at(slopes) == tool.radius_at(np.linspace(0.0, 1.0, 9))).all()

@@ -12,6 +12,7 @@ import pytest
 import roots
 import rs274
 import styluscam as sc
+from long_cases import some_long
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 FACES = {"cone_cup": ["Face1", "Face2", "Face3", "Face4"], "cap_r60": ["Face1"], "vwaf": ["Face1", "Face2", "Face3"]}
@@ -53,7 +54,7 @@ def is_sound(report: sc.Report) -> bool:
     return bool(report.ok) and not report.findings and report.gouge_max <= GOUGE and report.excess_max <= TOLERANCE
 
 
-@pytest.mark.parametrize("part", ["cone_cup", "cap_r60", "vwaf", "pyramid"])
+@pytest.mark.parametrize("part", some_long(["cone_cup", "cap_r60", "vwaf", "pyramid"], {"cap_r60", "pyramid"}))
 @pytest.mark.parametrize("kind", KINDS)
 def test_few_arcs_keep_the_tolerance(part: str, kind: str) -> None:
     asked = job(part, kind, fit="arcs")

@@ -1,10 +1,21 @@
 //! Between numpy arrays and the engine's vectors.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::ndarray::Dimension;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use styluscam_geometry::Vector;
 
 use crate::errors::raise;
+
+/// An array as Rust may read it: a copy where its entries do not lie at multiples of their size, as those of `numpy.frombuffer` with an offset.
+pub fn aligned<'py, T: numpy::Element, D: Dimension>(
+    array: &PyReadonlyArray<'py, T, D>,
+) -> PyResult<PyReadonlyArray<'py, T, D>> {
+    if array.data().is_aligned() {
+        return Ok(array.clone());
+    }
+    array.call_method0("copy")?.extract()
+}
 
 /// Rows of an (N, 3) array.
 pub fn vectors(array: &PyReadonlyArray2<'_, f64>, name: &str) -> PyResult<Vec<Vector>> {
@@ -16,6 +27,7 @@ pub fn rows<T: numpy::Element + Copy + Default, const K: usize>(
     array: &PyReadonlyArray2<'_, T>,
     name: &str,
 ) -> PyResult<Vec<[T; K]>> {
+    let array = aligned(array)?;
     let view = array.as_array();
     if view.ncols() != K {
         let message = format!("{name} has shape ({}, {}): (N, {K}) expected", view.nrows(), view.ncols());
@@ -71,8 +83,8 @@ pub fn mapped<'py>(
     array: &PyReadonlyArray1<'py, f64>,
     py: Python<'py>,
     f: impl Fn(f64) -> f64,
-) -> Bound<'py, PyArray1<f64>> {
-    PyArray1::from_vec(py, array.as_array().iter().map(|x| f(*x)).collect())
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    Ok(PyArray1::from_vec(py, aligned(array)?.as_array().iter().map(|x| f(*x)).collect()))
 }
 
 /// Checks that there are as many of the one as of the other.

@@ -29,6 +29,7 @@ impl Nurbs {
         poles: PyReadonlyArray3<'_, f64>,
         weights: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Self> {
+        let (poles, weights) = (arrays::aligned(&poles)?, arrays::aligned(&weights)?);
         let (poles, weights) = (poles.as_array(), weights.as_array());
         if poles.dim() != (weights.nrows(), weights.ncols(), 3) {
             let message =
@@ -110,7 +111,7 @@ fn called(surface: &Bound<'_, PyAny>, parameters: &[[f64; 2]]) -> PyResult<Vec<S
 }
 
 fn pole((fixed, value, near, values, ways): &PoleArrays<'_>) -> PyResult<Pole> {
-    let ways = values.as_array().iter().copied().zip(arrays::vectors(ways, "ways")?).collect();
+    let ways = arrays::aligned(values)?.as_array().iter().copied().zip(arrays::vectors(ways, "ways")?).collect();
     Ok(Pole { fixed: usize::from(*fixed > 0), value: *value, near: *near, ways })
 }
 

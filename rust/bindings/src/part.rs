@@ -198,10 +198,11 @@ fn face_numbers(ids: &PyReadonlyArray1<'_, i64>) -> PyResult<Vec<u32>> {
             errors::raise("GeometryError", &message, "out-of-range", "face_ids", "")
         })
     };
-    ids.as_array().iter().enumerate().map(number).collect()
+    arrays::aligned(ids)?.as_array().iter().enumerate().map(number).collect()
 }
 
 fn corner_normals(normals: &PyReadonlyArray3<'_, f64>) -> PyResult<Vec<[Vector; 3]>> {
+    let normals = arrays::aligned(normals)?;
     let view = normals.as_array();
     let (_, corners, axes) = view.dim();
     if (corners, axes) != (3, 3) {

@@ -29,12 +29,15 @@ impl Simulation {
         heights: PyReadonlyArray2<'_, f64>,
         top: f64,
         before: Option<PyReadonlyArray2<'_, f64>>,
-    ) -> Self {
+    ) -> PyResult<Self> {
+        let heights = arrays::aligned(&heights)?;
         let view = heights.as_array();
         let (rows, columns) = view.dim();
         let grid = styluscam_verify::Grid { origin, step, nodes: [columns, rows] };
+        let before = before.map(|before| arrays::aligned(&before)).transpose()?;
         let before = before.map(|before| before.as_array().iter().copied().collect());
-        Self { simulation: styluscam_verify::Simulation { grid, heights: view.iter().copied().collect(), top, before } }
+        let heights = view.iter().copied().collect();
+        Ok(Self { simulation: styluscam_verify::Simulation { grid, heights, top, before } })
     }
 
     /// The first node in plan.

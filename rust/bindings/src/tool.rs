@@ -6,6 +6,9 @@ use styluscam_geometry::ToolFlank;
 
 use crate::{arrays::mapped, errors, json::json};
 
+/// One value for each entry of an array.
+type Values<'py> = Bound<'py, PyArray1<f64>>;
+
 /// A profile document of each kind with sensible numbers, as JSON.
 #[pyfunction]
 pub fn profile_starters() -> Vec<&'static str> {
@@ -80,7 +83,7 @@ impl Tool {
         parts.iter().map(|part| (part.is_straight(), part.slopes(), part.ends())).collect()
     }
 
-    fn radius_at<'py>(&self, py: Python<'py>, slope: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray1<f64>> {
+    fn radius_at<'py>(&self, py: Python<'py>, slope: PyReadonlyArray1<'py, f64>) -> PyResult<Values<'py>> {
         mapped(&slope, py, |s| self.tool.point_at(s).0)
     }
 
@@ -89,24 +92,20 @@ impl Tool {
         &self,
         py: Python<'py>,
         slope: PyReadonlyArray1<'py, f64>,
-    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
-        let inner = mapped(&slope, py, |s| self.tool.profile().inner_point_at(s).0);
-        (inner, mapped(&slope, py, |s| self.tool.point_at(s).0))
+    ) -> PyResult<(Values<'py>, Values<'py>)> {
+        let inner = mapped(&slope, py, |s| self.tool.profile().inner_point_at(s).0)?;
+        Ok((inner, mapped(&slope, py, |s| self.tool.point_at(s).0)?))
     }
 
-    fn height_at<'py>(&self, py: Python<'py>, slope: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray1<f64>> {
+    fn height_at<'py>(&self, py: Python<'py>, slope: PyReadonlyArray1<'py, f64>) -> PyResult<Values<'py>> {
         mapped(&slope, py, |s| self.tool.point_at(s).1)
     }
 
-    fn curvature_radius_at<'py>(
-        &self,
-        py: Python<'py>,
-        slope: PyReadonlyArray1<'py, f64>,
-    ) -> Bound<'py, PyArray1<f64>> {
+    fn curvature_radius_at<'py>(&self, py: Python<'py>, slope: PyReadonlyArray1<'py, f64>) -> PyResult<Values<'py>> {
         mapped(&slope, py, |s| self.cutter.curvature_radius_at(s))
     }
 
-    fn height_at_radius<'py>(&self, py: Python<'py>, radius: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray1<f64>> {
+    fn height_at_radius<'py>(&self, py: Python<'py>, radius: PyReadonlyArray1<'py, f64>) -> PyResult<Values<'py>> {
         mapped(&radius, py, |r| self.cutter.height_at_radius(r))
     }
 }
