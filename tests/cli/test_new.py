@@ -382,11 +382,10 @@ def test_the_tool_fits_the_fillets(parts, cli):
     tool = document["tools"]["cutter"]
     assert tool["profile"] == {**tool["profile"], "kind": "ball", "diameter": 8.0}
     assert "a radius of 4.0" in " ".join(ran.json["reasons"])
-    # the ribs' upright sides in levels, the plate's with a flat tool, for the ball would leave 4 of their 10 mm, the rest in
-    # rows, no face in two
-    assert [operation["id"] for operation in document["operations"]] == ["roughing", "flat-walls", "walls", "floors"]
-    _, outer, walls, floors = (set(operation.get("faces") or ()) for operation in document["operations"])
-    assert not walls & floors and not outer & (walls | floors) and len(outer) >= 4
+    # the upright sides in levels, the rest in rows, no face in both
+    assert [operation["kind"] for operation in document["operations"]] == ["pocket", "z-level", "zig-zag"]
+    _, walls, floors = (operation.get("faces") for operation in document["operations"])
+    assert not set(walls) & set(floors)
 
 
 def splined(height):

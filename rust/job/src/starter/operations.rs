@@ -182,13 +182,20 @@ fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &C
         return None;
     }
     let [ball_reach, flat_reach] = [by_face.reach(&milled.tool)?, by_face.reach(flat)?];
+    let suits = |face: &FaceLook| {
+        let is_upright = face.hole.is_none() && face.vertical >= PRISMATIC;
+        is_upright && fits(face, flat) && by_face.is_touched(face, flat, None)
+    };
+    let of_ball = || seen.iter().filter(|face| is_wall(face) && milled.names(face));
+    // all or none: levels along what leans go on along the upright walls beside it
+    let takes_walls = of_ball().all(|face| suits(face))
+        && of_ball().any(|face| by_face.share_at_foot(face, &milled.tool) > BALL_LEAVES);
     let is_for_flat = |face: &&FaceLook| {
         if face.hole.is_some() {
             return false;
         }
         if is_wall(face) {
-            let is_left = !milled.names(face) || by_face.share_at_foot(face, &milled.tool) > BALL_LEAVES;
-            return face.vertical >= PRISMATIC && is_left && fits(face, flat) && by_face.is_touched(face, flat, None);
+            return (takes_walls || !milled.names(face)) && suits(face);
         }
         let leaves = |reach: &ToolReach<'_>| {
             reach.share_left(by_face.of_face(face.face), FLOOR_POINTS, 0.5 * TOUCHED * milled.tool.diameter)
