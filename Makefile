@@ -92,9 +92,8 @@ test: ## Everything: what CI runs
 	@$(MAKE) --no-print-directory $(VENV)/.ready
 	@$(PYTHON) tests/oracles/roots.py ensure trixie forky browser >$(ROOTS_LOG) 2>&1 & roots=$$!; \
 	  tests/timed.sh lint $(MAKE) --no-print-directory lint; \
-	  export CARGO_INCREMENTAL=0; \
-	  tests/timed.sh wheel $(MAKE) --no-print-directory wheel dev PROFILE=quick; \
-	  PROPTEST_RNG_SEED=$(SEED) PROPTEST_CASES=$(CASES) tests/timed.sh cargo cargo test --workspace --profile quick --locked --quiet; \
+	  CARGO_INCREMENTAL=0 tests/timed.sh wheel $(MAKE) --no-print-directory wheel dev PROFILE=quick; \
+	  CARGO_INCREMENTAL=0 PROPTEST_RNG_SEED=$(SEED) PROPTEST_CASES=$(CASES) tests/timed.sh cargo cargo test --workspace --profile quick --locked --quiet; \
 	  wait $$roots || { cat $(ROOTS_LOG); [ -z "$${CI:-}" ] || exit 1; }; \
 	  tests/timed.sh pytest $(PYTEST) -n 2 --ignore=tests/freecad --ignore=tests/window; \
 	  tests/timed.sh freecad $(PYTEST) tests/freecad >$(FREECAD_LOG) 2>&1 & freecad=$$!; \

@@ -251,8 +251,8 @@ def wrong_feeds(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
 
 
 @fault
-def spindle_forgotten(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
-    turned = [operation for operation in document["operations"] if "spindle" in operation]
+def spindle_off(mesh: Mesh, document: Document) -> tuple[Mesh, Document] | None:
+    turned = [operation for operation in document["operations"] if operation.get("spindle", {}).get("mode") == "fixed"]
     for operation in turned:
         operation["spindle"] = {"mode": "off"}
     return (mesh, document) if turned else None

@@ -289,3 +289,6 @@ def test_what_comes_in_need_not_be_contiguous_or_float(wide_part: sc.Part) -> No
     assert (sc.drop_cutter(wide_part, tool, beside) == as_floats).all()
     slopes = np.frombuffer(b"." + np.linspace(0.0, 1.0, 9).tobytes(), np.float64, 9, 1)
     assert (tool.radius_at(slopes) == tool.radius_at(np.linspace(0.0, 1.0, 9))).all()
+    records = np.zeros(9, [("slope", "<f8"), ("flag", "u1")])
+    records["slope"] = slopes
+    assert (tool._engine.radius_at(records["slope"]) == tool.radius_at(slopes)).all()

@@ -185,6 +185,13 @@ def notes_on_feeds(controller: Any) -> list[str]:
     return [f"{controller.Label} states no {' and no '.join(missing)}: the engine's default feed is used"]
 
 
+def notes_on_spindle(obj: Any) -> list[str]:
+    """A sentence where the operation mills with a spindle that stands."""
+    if str(obj.Process) != "milling" or _spindle(obj.ToolController)["mode"] != "off":
+        return []
+    return [f"{obj.ToolController.Label} leaves the spindle off: set its direction and speed before you mill"]
+
+
 def _spindle(controller: Any) -> Document:
     """What the tool controller's own commands do to the spindle."""
     senses = {"M3": "clockwise", "M03": "clockwise", "M4": "counterclockwise", "M04": "counterclockwise"}

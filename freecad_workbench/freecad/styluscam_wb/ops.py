@@ -164,7 +164,7 @@ class ObjectStylus(PathOp.ObjectOp):
         self._program = plan.programs["main"]
         self._seconds = float(self._program.times(plan.machines["main"])[-1])
         notes = map(in_labels, plan.summary()[1][:-1])  # the last line is for a verified text
-        obj.Notes = [*notes, *documents.notes_on_feeds(obj.ToolController)]
+        obj.Notes = [*notes, *documents.notes_on_feeds(obj.ToolController), *documents.notes_on_spindle(obj)]
 
     def _without_rotary_axes(self) -> OperationError:
         """A tool that leans, where the post's machine cannot turn it."""

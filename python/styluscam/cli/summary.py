@@ -86,7 +86,7 @@ def _standing_spindle(job: Document) -> list[tuple[str, str]]:
         return []
     operations = job["operations"]
     standing = sum(operation["spindle"]["mode"] == "off" for operation in operations)
-    words = f"OFF in {standing} of {counted(len(operations), 'operation')}, as stated: switch it on by hand"
+    words = f"OFF in {standing} of {counted(len(operations), 'operation')}, as stated: the program does not cut"
     return [("spindle", words)] if standing else []
 
 

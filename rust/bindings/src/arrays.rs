@@ -1,17 +1,20 @@
 //! Between numpy arrays and the engine's vectors.
 
 use numpy::ndarray::Dimension;
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{
+    PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
 use styluscam_geometry::Vector;
 
 use crate::errors::raise;
 
-/// An array as Rust may read it: a copy where its entries do not lie at multiples of their size, as those of `numpy.frombuffer` with an offset.
+/// An array as Rust may read it: a copy where its entries do not lie at multiples of their size, as those of `numpy.frombuffer` with an offset
+/// and fields of packed records.
 pub fn aligned<'py, T: numpy::Element, D: Dimension>(
     array: &PyReadonlyArray<'py, T, D>,
 ) -> PyResult<PyReadonlyArray<'py, T, D>> {
-    if array.data().is_aligned() {
+    if array.is_aligned() {
         return Ok(array.clone());
     }
     array.call_method0("copy")?.extract()

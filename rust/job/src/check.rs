@@ -303,7 +303,7 @@ fn operation(job: &JobDocument, path: &str, section: &OperationSection) -> Resul
     order(job, path, section)?;
     corners(job, path, section)?;
     stock_to_leave(job, path, common)?;
-    spindle::check(section, path)?;
+    spindle::check(job, section, path)?;
     section.kind().check(common, path)
 }
 

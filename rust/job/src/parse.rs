@@ -6,7 +6,7 @@ use serde_json::{Map, Number, Value};
 use styluscam_geometry::ToolDocument;
 
 use crate::tagged::{unknown, written_path};
-use crate::{check, operations, process, schema, spindle, units, JobDocument, JobError, LengthUnit};
+use crate::{check, cutting, operations, process, schema, units, JobDocument, JobError, LengthUnit};
 
 /// Version of the job document; older ones migrate, newer ones are refused.
 pub const JOB_SCHEMA: u32 = 1;
@@ -78,7 +78,7 @@ fn of_plain(written: &Value) -> Result<JobDocument, JobError> {
     units::to_mm(&mut in_mm)?;
     part_keys(&mut in_mm)?;
     let document = checked(deserialize(&in_mm, written)?)?;
-    spindle::stated(&document, written)?;
+    cutting::spindles_stated(&document, written)?;
     Ok(document)
 }
 

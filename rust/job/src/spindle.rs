@@ -6,7 +6,6 @@
 
 use std::f64::consts::TAU;
 
-use serde_json::Value;
 use styluscam_geometry::Tool;
 use styluscam_motion::SpindleDirection;
 
@@ -47,31 +46,16 @@ pub(crate) fn turns(
     }
 }
 
-/// Refuses an operation that cuts, where `written`, the document as its author wrote it, neither states its spindle nor what it follows from:
-/// what is left out is a spindle that stands, and a cutter that stands breaks.
+/// Refuses a spindle that is not driven where tools cut, and a rolling one where the wall is not always on the same side of the path.
 ///
 /// # Errors
-/// An operation without a spindle in a job that cuts, and that names no material.
-pub(crate) fn stated(job: &JobDocument, written: &Value) -> Result<(), JobError> {
-    if job.process.process.as_kind().forms() || job.process.common.material.is_some() {
-        return Ok(());
+/// A free spindle of a cutter; rows, and loops that are run in both directions, or in the other one.
+pub(crate) fn check(job: &JobDocument, section: &OperationSection, path: &str) -> Result<(), JobError> {
+    if section.common.spindle == Spindle::Free && !job.process.process.as_kind().forms() {
+        let message = "a spindle that is not driven is for a stylus, and this process cuts";
+        let hint = "set mode = \"fixed\", with rpm";
+        return Err(JobError::document("conflict", format!("{path}.spindle.mode"), message, hint));
     }
-    let is_stated = |index: &usize| {
-        written.pointer(&format!("/operations/{index}/spindle")).is_some_and(|spindle| !spindle.is_null())
-    };
-    let Some(index) = (0..job.operations.len()).find(|index| !is_stated(index)) else { return Ok(()) };
-    let message = "the spindle is not stated, and a cutter must turn";
-    let hint =
-        "add spindle = { mode = \"fixed\", rpm = 8000 }, or process.material, which speeds and feeds follow from; \
-                spindle = { mode = \"off\" } where it is switched by hand";
-    Err(JobError::document("missing", format!("operations[{index}].spindle"), message, hint))
-}
-
-/// Refuses a rolling spindle where the wall is not always on the same side of the path.
-///
-/// # Errors
-/// Rows, and loops that are run in both directions, or in the other one.
-pub(crate) fn check(section: &OperationSection, path: &str) -> Result<(), JobError> {
     if section.common.spindle != Spindle::Rolling {
         return Ok(());
     }

@@ -36,6 +36,23 @@ impl Stated {
     }
 }
 
+/// Refuses an operation that cuts, where `written`, the document as its author wrote it, neither states its spindle nor what it follows from:
+/// what is left out is a spindle that stands, and a cutter that stands breaks.
+///
+/// # Errors
+/// An operation without a spindle in a job that cuts, and that names no material.
+pub(crate) fn spindles_stated(job: &JobDocument, written: &Value) -> Result<(), JobError> {
+    if job.process.process.as_kind().forms() || job.process.cut_material().is_some() {
+        return Ok(());
+    }
+    let is_missing = |index: &usize| !Stated::of(written, *index).spindle;
+    let Some(index) = (0..job.operations.len()).find(is_missing) else { return Ok(()) };
+    let message = "the spindle is not stated, and a cutter must turn";
+    let hint = "add process.material, which speeds and feeds follow from, or spindle = { mode = \"fixed\", rpm = 8000 } with the tool's speed; \
+                spindle = { mode = \"off\" } for a run that does not cut";
+    Err(JobError::document("missing", format!("operations[{index}].spindle"), message, hint))
+}
+
 /// The job with the feeds and spindles that `written`, the document as its author wrote it, leaves out; as it is where it does not state
 /// what is milled.
 ///
@@ -48,10 +65,7 @@ pub fn with_cutting_data(
     limits: MachineLimits,
 ) -> Result<(JobDocument, Vec<Filled>), JobError> {
     let (mut job, mut filled) = (job.clone(), Vec::new());
-    let Some(material) = job.process.common.material.clone().filter(|_| !job.process.process.as_kind().takes_sheet())
-    else {
-        return Ok((job, filled));
-    };
+    let Some(material) = job.process.cut_material().map(str::to_owned) else { return Ok((job, filled)) };
     table.material(&material).map_err(|error| error.at("process.material"))?;
     let tools = resolve::tools(&job)?;
     for (index, section) in job.operations.iter_mut().enumerate() {

@@ -10,7 +10,7 @@ mod table;
 #[allow(clippy::float_cmp)] // products of the tables' short numbers are exact
 mod tests;
 
-pub(crate) use fill::data_of;
+pub(crate) use fill::{data_of, spindles_stated};
 pub use fill::{with_cutting_data, Filled};
 pub use rules::{cutting_data, Cut, CuttingData, Engagement, MachineLimits};
 pub use table::{shipped_texts, CuttingEntry, CuttingMaterial, CuttingTable, CuttingWork, Span};

@@ -110,7 +110,7 @@ pub struct OperationKeys {
     pub slow_corners: bool,
     /// The spindle. Where tools cut it must be stated, unless `process.material` is: its speed then follows from that.
     #[serde(default)]
-    #[schemars(extend("x-example" = "{ mode = \"off\" }"))]
+    #[schemars(extend("x-example" = "{ mode = \"fixed\", rpm = 8000 }"))]
     pub spindle: Spindle,
     /// Coolant or lubricant.
     #[serde(default)]

@@ -130,6 +130,13 @@ pub struct ProcessSection {
     pub process: Process,
 }
 
+impl ProcessSection {
+    /// The material whose cutting data give feeds and spindles; none where a sheet is worked, whose material is one to form.
+    pub(crate) fn cut_material(&self) -> Option<&str> {
+        self.common.material.as_deref().filter(|_| !self.process.as_kind().takes_sheet())
+    }
+}
+
 impl Default for ProcessSection {
     fn default() -> Self {
         Self { common: ProcessKeys::default(), process: Process::Spif(Spif::default()) }

@@ -59,7 +59,7 @@ const FLAT_LEAVES: f64 = 0.5;
 const WALLS: &str = "finishing of upright and steep faces, in levels";
 const FLOORS: &str = "finishing of floors and gentle slopes, in rows";
 const FLAT_WALLS: &str =
-    "finishing of upright walls down to what lies before them, in levels, with a flat tool: a ball leaves its own radius at their foot";
+    "finishing of upright walls down to what lies before them, in levels, with a flat tool: a ball leaves its own radius at their foot, or does not get to them";
 const FLAT_FLOORS: &str =
     "finishing of level floors up to the walls, in rows, with a flat tool: a ball leaves much there";
 /// Levels at most.
@@ -218,18 +218,22 @@ fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &C
     let angle_deg = rows_along(mesh);
     let (walls, floors): (Vec<&FaceLook>, Vec<&FaceLook>) = of_flat.into_iter().partition(|face| is_wall(face));
     let cutter = ("flat-cutter", flat);
+    let mut finished = Vec::new();
     // levels come first: they take what roughing leaves in corners bit by bit, rows would take it at once
     if !walls.is_empty() {
         let passes = [levels_apart(mesh, &walls, flat), angle_deg];
+        finished.push("upright walls");
         both.works.insert(0, work("flat-walls", Serves::Walls, cutter, numbers(&walls), (passes, FLAT_WALLS)));
     }
     if !floors.is_empty() {
         let passes = [rows_apart(&floors, flat), angle_deg];
+        finished.push("level floors");
         both.works.push(work("flat-floors", Serves::Floors, cutter, numbers(&floors), (passes, FLAT_FLOORS)));
     }
     both.reasons.push(format!(
-        "a flat tool of {} mm finishes the upright walls and level floors that the ball does not get to",
-        flat.diameter
+        "a flat tool of {} mm finishes {} of which a ball leaves more",
+        flat.diameter,
+        finished.join(" and ")
     ));
     Some((both, share))
 }

@@ -102,9 +102,12 @@ pub fn roughing(
     let [smaller, larger] = nodes.stock_sides();
     let narrowest = (THINNEST * larger).clamp(STURDY, WIDEST_IN_ONE_PIECE);
     let sizes = shop.between([narrowest, WIDEST * smaller], Shape::Flat);
-    let needle = Cutter { shape: Shape::Flat, diameter: NEEDLE }.made();
-    let part = needle.map_or_else(Vec::new, |needle| nodes.tips(&nodes.envelope(&needle, 0.0), 0));
-    let tried: Vec<Cleared> = sizes.filter_map(|diameter| cleared((&nodes, &part), diameter)).collect();
+    let sizes: Vec<f64> = sizes.collect();
+    let most_left = to_leave(sizes.iter().copied().fold(0.0, f64::max));
+    let needle =
+        Cutter { shape: Shape::Flat, diameter: NEEDLE }.made().ok_or("no roughing: its stock cannot be measured")?;
+    let part = nodes.tips(&nodes.envelope(&needle, most_left), 0);
+    let tried: Vec<Cleared> = sizes.iter().filter_map(|diameter| cleared((&nodes, &part), *diameter)).collect();
     let most = tried.iter().map(|cleared| cleared.volume).fold(0.0, f64::max);
     let enough = tried.iter().position(|cleared| cleared.volume > 0.0 && cleared.volume >= ENOUGH * most);
     let fitting = enough.and_then(|last| tried.get(..=last)).unwrap_or(&[]);
@@ -116,10 +119,12 @@ pub fn roughing(
     let narrower = fitting.last().filter(|_| number + 1 < fitting.len());
     let width = if let Some(narrower) = narrower {
         format!(
-            "one of {} mm would get to {} more stock, along a path {:.1} times as long: what this one leaves is cut by finishing",
+            "one of {} mm would get to {:.1} % more stock, along a path {:.1} times as long, more than {:.0} m at full stepovers: what this one leaves \
+             is cut by what follows",
             narrower.cutter.diameter,
-            sizes::percent(narrower.volume / chosen.volume - 1.0),
-            narrower.way() / chosen.way()
+            100.0 * (narrower.volume / chosen.volume - 1.0),
+            narrower.way() / chosen.way(),
+            LONGEST / 1000.0
         )
     } else if number == 0 {
         "the widest that suits the part's size".to_owned()
@@ -133,7 +138,8 @@ pub fn roughing(
     Ok(first.chain(narrower.map(|cleared| cleared.work(&gap, faces))).collect())
 }
 
-/// What a flat tool clears of the stock over a part with so high points at its nodes; none for one that cannot be made, or that gets to nothing.
+/// What a flat tool clears of the stock over `part`, the part's own height at each node with what any tool leaves there, mm; none for a tool
+/// that cannot be made, or that gets to nothing.
 fn cleared((nodes, part): (&StockNodes<'_>, &[f64]), diameter: f64) -> Option<Cleared> {
     let cutter = Cutter { shape: Shape::Flat, diameter };
     let leave = to_leave(diameter);
@@ -141,9 +147,7 @@ fn cleared((nodes, part): (&StockNodes<'_>, &[f64]), diameter: f64) -> Option<Cl
     let front = nodes.front(&tool, SKIN);
     let envelope = nodes.envelope(&tool, leave);
     let tips = nodes.tips(&envelope, front.reach());
-    // where nodes are farther apart than the tool is wide, none of those beside the stock is among them
-    let beside = if front.reach() == 0 { nodes.tips(&envelope, 1) } else { Vec::new() };
-    let depth = nodes.top - tips.iter().chain(&beside).copied().fold(nodes.top, f64::min);
+    let depth = nodes.top - tips.iter().copied().fold(nodes.top, f64::min);
     let volume = nodes.volume(nodes.swept(&tips, &front).zip(part).map(|(swept, part)| swept.max(*part)));
     (depth > leave).then_some(Cleared { cutter, volume, leave, depth })
 }

@@ -37,6 +37,7 @@ fn keys_that_exclude_each_other_are_refused_at_the_key() {
         ("diameter = 3.0 }", "diameter = 3.0 }\nlength_offset = 0", "out-of-range", "tools.a.length_offset"),
         ("height = 1.0", "height = 0.0", "out-of-range", "operations[0].step.height"),
         ("tolerance = 0.01", "tolerance = 0.0", "out-of-range", "operations[0].tolerance"),
+        ("mode = \"off\"", "mode = \"free\"", "conflict", "operations[0].spindle.mode"),
     ];
     for (before, after, code, path) in cases {
         let text = with(&levels(), before, after);
@@ -69,7 +70,7 @@ fn a_number_where_a_table_is_expected_is_answered_with_a_table() {
         ("step = {}", "a table with one key is expected"),
         (
             "step = { height = 1.0 }\nspindle = \"off\"",
-            "invalid type: string \"off\", where a table is expected; allowed: a table like { mode = \"off\" }",
+            "invalid type: string \"off\", where a table is expected; allowed: a table like { mode = \"fixed\", rpm = 8000 }",
         ),
         ("step = { height = 1.0 }\nlinks = 1.0", "a word in quotes is expected; allowed: \"low\", \"clearance\""),
     ] {
