@@ -83,7 +83,7 @@ pub struct Pocket {
     /// How the tool goes down into stock, where it cannot come from an open side.
     #[serde(default)]
     pub entry: Entry,
-    /// A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix or a ramp.
+    /// A hole that is made before, or comes with the stock (`in_stock = true`), at least as deep as the pocket: the tool goes down in it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-example" = "{ x = 10.0, y = 8.0, diameter = 6.0 }"))]
     pub entry_hole: Option<EntryHole>,
