@@ -198,9 +198,10 @@ def test_new_job_runs_as_it_stands_where_levels_end_at_jumps(parts, cli):
     assert cli("new", parts / "filleted bracket.step", "--out", job).code == 0
     ran = cli("run", job, "--json")
     assert ran.code == 0, ran.out[-2000:]
-    (operation,) = [operation for operation in ran.json["summary"]["operations"] if operation["id"] == "walls"]
-    assert operation["facts"][1]["value"] >= 27
-    assert ran.json["summary"]["excess_max"] <= of(job, "walls")["tolerance"]
+    (operation,) = [operation for operation in ran.json["summary"]["operations"] if operation["kind"] == "z-level"]
+    # of a flat tool: a fifth of its diameter apart
+    assert operation["id"] == "flat-walls" and operation["facts"][1]["value"] >= 20
+    assert ran.json["summary"]["excess_max"] <= of(job, operation["id"])["tolerance"]
 
 
 @pytest.mark.parametrize("name", ["cone_cup", "cap_r60", "vwaf", "pyramid"])

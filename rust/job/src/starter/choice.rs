@@ -196,7 +196,6 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>, shop: &Shop)
     let mut works: Vec<Work> = Vec::new();
     let drilled = drilling(&body);
     let of_holes: Vec<u32> = drilled.iter().flat_map(|holes| holes.faces.iter().copied()).collect();
-    let done: Vec<u32> = drilled.iter().flat_map(Drilled::done).collect();
     let open: Vec<u32> = workable(&looks).map(|face| face.face).filter(|face| !of_holes.contains(face)).collect();
     let are_all = of_holes.is_empty() && covered(&looks).next().is_none();
     let faces = Some(open).filter(|open| !are_all && open.len() <= operations::NAMES);
@@ -205,7 +204,7 @@ fn mill(lying: Turned, sides: &[Side; 6], mut reasons: Vec<String>, shop: &Shop)
         Vec::new()
     });
     let part = Part::new((&body, shop), allowances, &drilled);
-    let (Milling { rougher, milled, .. }, between) = milling((&body, &looks, &done), &part, &roughings);
+    let (Milling { rougher, milled, .. }, between) = milling((&body, &looks, &drilled), &part, &roughings);
     works.extend(rougher);
     reasons.extend(milled.reasons);
     works.extend(drilled.into_iter().map(|holes| holes.work));
@@ -239,14 +238,13 @@ struct Milling {
 
 /// With the first of some roughings after which no finishing tool cuts deeper at once than it is wide, without rows with balls over
 /// level floors first, else with the first of all; and what comes between roughing and finishing, or why finishing cuts deep without.
-/// `done` are the faces that are drilled, and need no finishing.
 fn milling(
-    (body, looks, done): (&Body<'_>, &Hollows, &[u32]),
+    (body, looks, drilled): (&Body<'_>, &Hollows, &[Drilled]),
     part: &Part<'_>,
     roughings: &[Work],
 ) -> (Milling, Result<Between, String>) {
     let after = |rougher: Option<&Work>| {
-        let milled = operations::milling((body, part.shop), looks, done, rougher.map(|work| &work.cutter));
+        let milled = operations::milling((body, part.shop), looks, drilled, rougher.map(|work| &work.cutter));
         let cuts = part.cuts(rougher, &milled.works);
         Milling { rougher: rougher.cloned(), milled, cuts }
     };

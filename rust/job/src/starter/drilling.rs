@@ -40,6 +40,11 @@ pub struct Drilled {
 }
 
 impl Drilled {
+    /// Whether a face in a hole is finished by milling.
+    pub fn mills(&self, face: u32) -> bool {
+        self.milled.contains(&face)
+    }
+
     /// Faces that are done with it: no other operation is for them.
     pub fn done(&self) -> impl Iterator<Item = u32> + '_ {
         self.faces.iter().copied().filter(|face| !self.milled.contains(face))

@@ -6,6 +6,7 @@ use styluscam_geometry::Mesh;
 use styluscam_verify::ToolReach;
 
 use super::cutter::{Cutter, Shape};
+use super::drilling::Drilled;
 use super::shop::Shop;
 use super::sizes::{self, round};
 use super::work::Work;
@@ -120,19 +121,34 @@ fn work(
     }
 }
 
-/// Rows, levels, or both, with a tool that gets to the faces that are not `done` before. A flat one is no wider than the
+/// Rows, levels, or both, with a tool that gets to the faces that drilling does not finish. A flat one is no wider than the
 /// `rougher`: in corners it would meet what a narrower one has not cleared. Level floors and upright walls that a ball leaves are a
 /// flat one's.
-pub fn milling((body, shop): (&Body<'_>, &Shop), looks: &Hollows, done: &[u32], rougher: Option<&Cutter>) -> Milled {
+pub fn milling(
+    (body, shop): (&Body<'_>, &Shop),
+    looks: &Hollows,
+    drilled: &[Drilled],
+    rougher: Option<&Cutter>,
+) -> Milled {
+    let done: Vec<u32> = drilled.iter().flat_map(Drilled::done).collect();
     let seen: Vec<&FaceLook> = workable(looks).filter(|face| !done.contains(&face.face)).collect();
     let is_prismatic = seen.iter().all(|face| face.flat >= PRISMATIC || face.vertical >= PRISMATIC);
     let shape = if is_prismatic { Shape::Flat } else { Shape::Ball };
-    let drilled = |face: &&FaceLook| face.hole.is_some();
+    let is_in_hole = |face: &&FaceLook| face.hole.is_some();
     let (mut fitting, mut words) =
-        sizes::cutter((body.mesh(), shop), seen.iter().copied().filter(|face| !drilled(face)), shape);
+        sizes::cutter((body.mesh(), shop), seen.iter().copied().filter(|face| !is_in_hole(face)), shape);
     if let Some(rougher) = rougher.filter(|rougher| is_prismatic && rougher.diameter < fitting.diameter) {
         fitting.diameter = rougher.diameter;
         words = format!("the tool, {} mm wide: no wider than that of the roughing", rougher.diameter);
+    }
+    let counterbores =
+        seen.iter().filter(|face| face.hole.is_some() && drilled.iter().any(|holes| holes.mills(face.face)));
+    for face in counterbores {
+        while !fits(face, &fitting) {
+            let Some(smaller) = sizes::next_smaller(&fitting, body.mesh(), shop) else { break };
+            fitting.diameter = smaller;
+            words = format!("the tool, {smaller} mm wide, fits the narrowest counterbore");
+        }
     }
     let by_face = ByFace::of(body);
     let allowed = ProcessKeys::default().max_unreached;
