@@ -4,7 +4,7 @@
 <context>
     <name>App::Property</name>
     <message>
-        <source>A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix or a ramp.
+        <source>A hole that is made before, or comes with the stock (`in_stock = true`), at least as deep as the pocket: the tool goes down in it.
 As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
@@ -701,7 +701,7 @@ Range: 0.01 to 100 mm</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>A hole that is drilled before, at least as deep as the pocket: the tool goes down in it, without a helix or a ramp.
+        <source>A hole that is made before, or comes with the stock (`in_stock = true`), at least as deep as the pocket: the tool goes down in it.
 As JSON
 0 or empty: not stated</source>
         <translation type="unfinished"></translation>
