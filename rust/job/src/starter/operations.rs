@@ -225,8 +225,8 @@ fn with_flat(by_face: &ByFace<'_>, seen: &[&FaceLook], milled: &Milled, flat: &C
     }
     let words = milled.reasons.first().cloned().unwrap_or_default();
     let mut both = worked(by_face, (&rest, false), milled.tool, words);
-    let is_empty = both.works.iter().any(|work| work.faces.as_ref().is_some_and(Vec::is_empty));
-    if is_empty || rest.iter().any(|face| milled.names(face) && !both.names(face)) {
+    let of_both: Vec<&FaceLook> = rest.iter().copied().filter(|face| both.names(face)).collect();
+    if area(&of_both) < WORTH * area(seen) || rest.iter().any(|face| milled.names(face) && !both.names(face)) {
         return None; // too little is left for the ball
     }
     let share = by_face.share_left(&both);
