@@ -20,6 +20,11 @@ pub fn aligned<'py, T: numpy::Element, D: Dimension>(
     array.call_method0("copy")?.extract()
 }
 
+/// The entries of an array, row by row.
+pub fn entries<T: numpy::Element + Copy, D: Dimension>(array: &PyReadonlyArray<'_, T, D>) -> PyResult<Vec<T>> {
+    Ok(aligned(array)?.as_array().iter().copied().collect())
+}
+
 /// Rows of an (N, 3) array.
 pub fn vectors(array: &PyReadonlyArray2<'_, f64>, name: &str) -> PyResult<Vec<Vector>> {
     Ok(rows::<f64, 3>(array, name)?.into_iter().map(Vector::from).collect())

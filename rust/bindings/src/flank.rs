@@ -149,10 +149,9 @@ fn pairs_of(from: Vec<Vector>, to: Vec<Vector>) -> Vec<[Vector; 2]> {
 }
 
 pub(crate) fn rail((degree, knots, poles, weights): &RailArrays<'_>) -> PyResult<NurbsCurve> {
-    let (poles, weights) = (arrays::rows::<f64, 3>(poles, "poles")?, arrays::aligned(weights)?);
-    let weights = weights.as_array();
+    let (poles, weights) = (arrays::rows::<f64, 3>(poles, "poles")?, arrays::entries(weights)?);
     arrays::one_each("weights", weights.len(), "poles", poles.len())?;
-    let poles: Vec<[f64; 4]> = poles.iter().zip(weights).map(|([x, y, z], w)| [*x, *y, *z, *w]).collect();
+    let poles: Vec<[f64; 4]> = poles.iter().zip(weights).map(|([x, y, z], w)| [*x, *y, *z, w]).collect();
     NurbsCurve::new(*degree, knots.clone(), &poles).map_err(|error| errors::of_geometry(&error))
 }
 

@@ -111,7 +111,7 @@ fn called(surface: &Bound<'_, PyAny>, parameters: &[[f64; 2]]) -> PyResult<Vec<S
 }
 
 fn pole((fixed, value, near, values, ways): &PoleArrays<'_>) -> PyResult<Pole> {
-    let ways = arrays::aligned(values)?.as_array().iter().copied().zip(arrays::vectors(ways, "ways")?).collect();
+    let ways = arrays::entries(values)?.into_iter().zip(arrays::vectors(ways, "ways")?).collect();
     Ok(Pole { fixed: usize::from(*fixed > 0), value: *value, near: *near, ways })
 }
 

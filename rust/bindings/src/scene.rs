@@ -83,7 +83,7 @@ impl Scene {
         cutters: Vec<PyRef<'py, Tool>>,
         moments: Vec<usize>,
     ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
-        let (tips, tools) = (arrays::rows::<f64, 3>(&tips, "tips")?, arrays::aligned(&tools)?.as_array().to_vec());
+        let (tips, tools) = (arrays::rows::<f64, 3>(&tips, "tips")?, arrays::entries(&tools)?);
         let cutters: Vec<_> = cutters.iter().map(|tool| tool.tool.cutter()).collect();
         let tools: Vec<_> = tools.iter().map(|tool| usize::try_from(*tool).ok().and_then(|i| cutters.get(i))).collect();
         let travel = Travel { tips: &tips, tools: &tools, moments: &moments };

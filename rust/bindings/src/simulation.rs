@@ -30,13 +30,10 @@ impl Simulation {
         top: f64,
         before: Option<PyReadonlyArray2<'_, f64>>,
     ) -> PyResult<Self> {
-        let heights = arrays::aligned(&heights)?;
-        let view = heights.as_array();
-        let (rows, columns) = view.dim();
-        let grid = styluscam_verify::Grid { origin, step, nodes: [columns, rows] };
-        let before = before.map(|before| arrays::aligned(&before)).transpose()?;
-        let before = before.map(|before| before.as_array().iter().copied().collect());
-        let heights = view.iter().copied().collect();
+        let dims = heights.dims();
+        let grid = styluscam_verify::Grid { origin, step, nodes: [dims[1], dims[0]] };
+        let before = before.map(|before| arrays::entries(&before)).transpose()?;
+        let heights = arrays::entries(&heights)?;
         Ok(Self { simulation: styluscam_verify::Simulation { grid, heights, top, before } })
     }
 

@@ -134,22 +134,7 @@ pub fn milling(
     let seen: Vec<&FaceLook> = workable(looks).filter(|face| !done.contains(&face.face)).collect();
     let is_prismatic = seen.iter().all(|face| face.flat >= PRISMATIC || face.vertical >= PRISMATIC);
     let shape = if is_prismatic { Shape::Flat } else { Shape::Ball };
-    let is_in_hole = |face: &&FaceLook| face.hole.is_some();
-    let (mut fitting, mut words) =
-        sizes::cutter((body.mesh(), shop), seen.iter().copied().filter(|face| !is_in_hole(face)), shape);
-    if let Some(rougher) = rougher.filter(|rougher| is_prismatic && rougher.diameter < fitting.diameter) {
-        fitting.diameter = rougher.diameter;
-        words = format!("the tool, {} mm wide: no wider than that of the roughing", rougher.diameter);
-    }
-    let counterbores =
-        seen.iter().filter(|face| face.hole.is_some() && drilled.iter().any(|holes| holes.mills(face.face)));
-    for face in counterbores {
-        while !fits(face, &fitting) {
-            let Some(smaller) = sizes::next_smaller(&fitting, body.mesh(), shop) else { break };
-            fitting.diameter = smaller;
-            words = format!("the tool, {smaller} mm wide, fits the narrowest counterbore");
-        }
-    }
+    let (fitting, words) = finisher((body.mesh(), shop), (&seen, drilled), shape, rougher);
     let by_face = ByFace::of(body);
     let allowed = ProcessKeys::default().max_unreached;
     let mut milled = worked(&by_face, (&seen, true), fitting, words);
@@ -189,6 +174,30 @@ pub fn milling(
         ));
     }
     milled
+}
+
+/// The widest tool that fits the faces seen, and the sentence on it: a flat one is no wider than the `rougher`, and all have room in the
+/// counterbores that they mill.
+fn finisher(
+    (mesh, shop): (&Mesh, &Shop),
+    (seen, drilled): (&[&FaceLook], &[Drilled]),
+    shape: Shape,
+    rougher: Option<&Cutter>,
+) -> (Cutter, String) {
+    let (holes, open): (Vec<&FaceLook>, Vec<&FaceLook>) = seen.iter().partition(|face| face.hole.is_some());
+    let (mut fitting, mut words) = sizes::cutter((mesh, shop), open, shape);
+    if let Some(rougher) = rougher.filter(|rougher| shape == Shape::Flat && rougher.diameter < fitting.diameter) {
+        fitting.diameter = rougher.diameter;
+        words = format!("the tool, {} mm wide: no wider than that of the roughing", rougher.diameter);
+    }
+    for counterbore in holes.into_iter().filter(|face| drilled.iter().any(|holes| holes.mills(face.face))) {
+        while !fits(counterbore, &fitting) {
+            let Some(smaller) = sizes::next_smaller(&fitting, mesh, shop) else { break };
+            fitting.diameter = smaller;
+            words = format!("the tool, {smaller} mm wide, fits the narrowest counterbore");
+        }
+    }
+    (fitting, words)
 }
 
 /// The same with a flat tool, too, for the level floors and upright walls that the ball leaves, and the share of the
@@ -323,29 +332,28 @@ impl<'a> ByFace<'a> {
 
     /// Whether the tool's side touches an upright face while its tip stays above what lies in front of it.
     fn is_touched(&self, face: &FaceLook, tool: &Cutter, reach: Option<&ToolReach<'_>>) -> bool {
-        let side = side(tool);
-        let own = some_of(self.of_face(face.face));
-        let has_room =
-            own.map(|triangle| self.floor_before(triangle, tool)).any(|floor| face.heights[1] - floor > 1.2 * side);
-        let touches =
-            |reach: &ToolReach<'_>| reach.share_left(self.of_face(face.face), LOOKED_AT, TOUCHED * side) < 1.0;
+        let (own, side) = (self.of_face(face.face), side(tool));
+        let has_room = self.floors_before(own, tool).any(|floor| face.heights[1] - floor > 1.2 * side);
+        let touches = |reach: &ToolReach<'_>| reach.share_left(own, LOOKED_AT, TOUCHED * side) < 1.0;
         has_room && reach.is_none_or(touches)
     }
 
     /// Share of an upright face's height that the tool's side does not touch over the lowest of what lies in front of it.
     fn share_at_foot(&self, face: &FaceLook, tool: &Cutter) -> f64 {
-        let floors = some_of(self.of_face(face.face)).map(|triangle| self.floor_before(triangle, tool));
+        let floors = self.floors_before(self.of_face(face.face), tool);
         let lowest = floors.fold(f64::INFINITY, f64::min) + side(tool);
         let [low, high] = face.heights;
         ((lowest - low) / (high - low)).clamp(0.0, 1.0)
     }
 
-    /// Height of what lies in front of an upright triangle, at the axis of a tool that touches it, mm.
-    fn floor_before(&self, triangle: usize, tool: &Cutter) -> f64 {
+    /// Heights of what lies in front of some of an upright face's triangles, at the axis of a tool that touches them, mm.
+    fn floors_before<'b>(&'b self, own: &'b [usize], tool: &'b Cutter) -> impl Iterator<Item = f64> + 'b {
         let mesh = self.body.mesh();
-        let [a, b, c] = mesh.corners(triangle);
-        let axis = (a + b + c) / 3.0 + 0.5 * tool.diameter * mesh.normal(triangle);
-        self.body.height_at(axis.x, axis.y).unwrap_or(self.foot)
+        own.iter().step_by(own.len().div_ceil(LOOKED_AT).max(1)).map(move |triangle| {
+            let [a, b, c] = mesh.corners(*triangle);
+            let axis = (a + b + c) / 3.0 + 0.5 * tool.diameter * mesh.normal(*triangle);
+            self.body.height_at(axis.x, axis.y).unwrap_or(self.foot)
+        })
     }
 
     /// Share of the faces to which the tool does not get, by the verifier's measure, but for what the program's moves leave where
@@ -370,11 +378,6 @@ fn side(tool: &Cutter) -> f64 {
         Shape::Ball => 0.5 * tool.diameter,
         Shape::Flat | Shape::Drill => 0.0,
     }
-}
-
-/// Some of a face's triangles, evenly.
-fn some_of(triangles: &[usize]) -> impl Iterator<Item = usize> + '_ {
-    triangles.iter().copied().step_by(triangles.len().div_ceil(LOOKED_AT).max(1))
 }
 
 /// What no tool from above gets to, in words: holes across, undercuts.

@@ -101,8 +101,7 @@ pub fn roughing(
     let nodes = StockNodes::new(body.mesh(), allowances, drilled, NODES);
     let [smaller, larger] = nodes.stock_sides();
     let narrowest = (THINNEST * larger).clamp(STURDY, WIDEST_IN_ONE_PIECE);
-    let sizes = shop.between([narrowest, WIDEST * smaller], Shape::Flat);
-    let sizes: Vec<f64> = sizes.collect();
+    let sizes: Vec<f64> = shop.between([narrowest, WIDEST * smaller], Shape::Flat).collect();
     let most_left = to_leave(sizes.iter().copied().fold(0.0, f64::max));
     let needle =
         Cutter { shape: Shape::Flat, diameter: NEEDLE }.made().ok_or("no roughing: its stock cannot be measured")?;
@@ -116,8 +115,8 @@ pub fn roughing(
     let Some((number, chosen)) = number.and_then(|number| Some((number, fitting.get(number)?))) else {
         return Err("no roughing: no tool that suits the part's size gets to stock over it".to_owned());
     };
-    let narrower = fitting.last().filter(|_| number + 1 < fitting.len());
-    let width = if let Some(narrower) = narrower {
+    let passed_over = fitting.last().filter(|_| number + 1 < fitting.len());
+    let width = if let Some(narrower) = passed_over {
         format!(
             "one of {} mm would get to {:.1} % more stock, along a path {:.1} times as long, more than {:.0} m at full stepovers: what this one leaves \
              is cut by what follows",

@@ -1,6 +1,6 @@
 //! Jobs that are refused: each error with its code, and the path of the key.
 
-use super::setup::{levels, milling, with};
+use super::setup::{levels, milling, with, LEVELS};
 
 /// Code and path of the error of a text.
 fn refused(text: &str) -> (String, String) {
@@ -50,7 +50,7 @@ fn a_cutter_whose_spindle_is_not_stated_is_refused_unless_it_follows_from_the_ma
     let stated = "spindle = { mode = \"off\" }";
     let without = with(&levels(), stated, "");
     assert_eq!(refused(&without), ("missing".to_owned(), "operations[0].spindle".to_owned()));
-    let second = format!("{}\n[[operations]]\ntool = \"a\"\ntolerance = 0.01\n{}", levels(), super::setup::LEVELS);
+    let second = format!("{}\n[[operations]]\ntool = \"a\"\ntolerance = 0.01\n{}", levels(), LEVELS);
     assert_eq!(refused(&second).1, "operations[1].spindle");
     let material = with(&without, "kind = \"milling\"", "kind = \"milling\", material = \"aluminium\"");
     crate::from_toml(&material).expect("its spindle follows from the material");
