@@ -9,7 +9,7 @@ use styluscam_geometry::{Cutter, Vector};
 
 use super::bending::Bending;
 use super::edge;
-use super::features::{Owned, ALL};
+use super::features::{in_plane, Owned, ALL, NO_NEIGHBOUR};
 use super::index::{Index, Triangles};
 use super::normal;
 
@@ -17,8 +17,9 @@ use super::normal;
 const WALL: f64 = 1e-9;
 /// An edge is across a direction when it runs along it by less than this share of its length.
 const ACROSS: f64 = 1e-6;
-/// A contact this share of the part's size outside its facet still counts: flat edges are not tried, and rounding
-/// must not let a contact fall between two facets. The height is wrong by less than this.
+/// A contact this share of the part's size outside its facet still counts: edges in a plane are not tried where the contacts
+/// on both sides differ by no more, and rounding must not let a contact fall between two facets. The height is wrong by less
+/// than this.
 const OVERHANG: f64 = 1e-13;
 
 /// The part of a triangle that is touched.
@@ -104,15 +105,44 @@ impl Chord {
 pub struct Contacts<'a> {
     index: &'a Index,
     cutter: &'a Cutter,
-    facets: &'a [Facet],
+    prepared: &'a Prepared,
+}
+
+/// What a cutter makes of the triangles of an index.
+pub struct Prepared {
+    facets: Vec<Facet>,
+    /// Which edges and corners each has to try.
+    owned: Vec<Owned>,
+    /// How far beside it a triangle still counts as touched, mm.
     overhang: f64,
 }
 
-/// All facets of an index for a cutter.
-pub fn prepared(index: &Index, cutter: &Cutter) -> Vec<Facet> {
-    let bending = Bending::of(cutter);
-    let triangles = index.triangles();
-    (0..triangles.corners.len() as u32).into_par_iter().map(|t| Facet::of(triangles, t, cutter, &bending)).collect()
+impl Prepared {
+    /// `reach`: the largest coordinate of mesh and cutter, mm.
+    pub fn of(index: &Index, cutter: &Cutter, reach: f64) -> Self {
+        let (bending, overhang, triangles) = (Bending::of(cutter), OVERHANG * reach, index.triangles());
+        let all = || (0..triangles.corners.len() as u32).into_par_iter();
+        let facets: Vec<Facet> = all().map(|t| Facet::of(triangles, t, cutter, &bending)).collect();
+        let owned = all().map(|t| owned_for(index, cutter, &facets, t, overhang)).collect();
+        Self { facets, owned, overhang }
+    }
+}
+
+/// The edges and corners that a triangle has to try.
+///
+/// All of them where rounding of the facet's tilt shifts its contact beside where it counts as touched: a flat end touches
+/// a level facet anywhere. And an edge in a plane that the cutter touches at another point on its other side.
+fn owned_for(index: &Index, cutter: &Cutter, facets: &[Facet], triangle: u32, overhang: f64) -> Owned {
+    let (facet, owned) = (&facets[triangle as usize], index.owned(triangle));
+    if facet.rounding_of_contact(index.triangles().at(triangle), cutter) > overhang {
+        return ALL;
+    }
+    let neighbours = index.neighbours(triangle);
+    let is_to_try = |edge: usize| {
+        let other = neighbours[edge];
+        owned & in_plane(edge) != 0 && other != NO_NEIGHBOUR && !facet.touches_as(&facets[other as usize], overhang)
+    };
+    (0..3).filter(|edge| is_to_try(*edge)).fold(owned & ALL, |owned, edge| owned | 1 << edge)
 }
 
 impl Facet {
@@ -129,6 +159,28 @@ impl Facet {
             height: if normal.z >= WALL { height } else { f64::NAN },
             bend: if square > 0.0 { bending.excess_at(radius) / square } else { 0.0 },
         }
+    }
+
+    /// The contact relative to the axis, in plan.
+    fn contact(&self) -> [f64; 2] {
+        self.gradient.map(|part| self.share * part)
+    }
+
+    /// Whether the cutter touches two facets at the same point, but for rounding.
+    fn touches_as(&self, other: &Self, overhang: f64) -> bool {
+        let ([x, y], [u, v]) = (self.contact(), other.contact());
+        libm::hypot(x - u, y - v) <= overhang
+    }
+
+    /// How far rounding of the triangle's normal shifts the contact, mm; 0 for a facet that is level as given, and for walls.
+    fn rounding_of_contact(&self, corners: [Vector; 3], cutter: &Cutter) -> f64 {
+        let rise = libm::hypot(self.gradient[0], self.gradient[1]);
+        if rise == 0.0 || self.height.is_nan() {
+            return 0.0;
+        }
+        let tilt = normal::rounding(corners) * (1.0 + rise * rise);
+        let [inner, outer] = [(rise - tilt).max(0.0), rise + tilt].map(|rise| cutter.at_rise(rise).0);
+        (outer - inner) + (tilt / rise).min(1.0) * outer
     }
 }
 
@@ -173,14 +225,22 @@ struct Side {
 }
 
 impl<'a> Contacts<'a> {
-    /// `reach`: the largest coordinate of mesh and cutter, mm.
-    pub fn new(index: &'a Index, cutter: &'a Cutter, facets: &'a [Facet], reach: f64) -> Self {
-        Self { index, cutter, facets, overhang: OVERHANG * reach }
+    pub fn new(index: &'a Index, cutter: &'a Cutter, prepared: &'a Prepared) -> Self {
+        Self { index, cutter, prepared }
     }
 
     /// How far beside it a triangle still counts as touched, mm.
     pub fn overhang(&self) -> f64 {
-        self.overhang
+        self.prepared.overhang
+    }
+
+    /// Which edges and corners a triangle has to try.
+    pub fn owned(&self, triangle: u32) -> Owned {
+        self.prepared.owned[triangle as usize]
+    }
+
+    fn facet(&self, triangle: u32) -> &'a Facet {
+        &self.prepared.facets[triangle as usize]
     }
 
     /// Tries all of a triangle that it owns.
@@ -192,13 +252,13 @@ impl<'a> Contacts<'a> {
         if triangle == found.triangle {
             return;
         }
-        self.touch_owned(triangle, self.index.owned(triangle), position, found);
+        self.touch_owned(triangle, self.owned(triangle), position, found);
     }
 
     /// A triangle seen from a position and a height.
     #[inline]
     pub fn seen(&self, triangle: u32, [x, y]: [f64; 2], zero: f64) -> Seen {
-        let Facet { gradient: [gx, gy], share, height, bend } = self.facets[triangle as usize];
+        let Facet { gradient: [gx, gy], share, height, bend } = *self.facet(triangle);
         let corners = self.index.triangles().at(triangle).map(|corner| [corner.x - x, corner.y - y, corner.z - zero]);
         let contact = [share * gx, share * gy];
         let [first, ..] = corners;
@@ -209,7 +269,7 @@ impl<'a> Contacts<'a> {
     /// Tries one part of a triangle; of its inside, the whole plane.
     #[inline]
     pub fn touch_feature(&self, triangle: u32, feature: Feature, [x, y]: [f64; 2], found: &mut Best) {
-        let Facet { gradient: [gx, gy], share, height, .. } = self.facets[triangle as usize];
+        let Facet { gradient: [gx, gy], share, height, .. } = *self.facet(triangle);
         let corners = self.index.triangles().at(triangle);
         let contact = [x + share * gx, y + share * gy];
         match feature {
@@ -227,8 +287,8 @@ impl<'a> Contacts<'a> {
     /// for walls.
     #[inline]
     pub fn plane(&self, triangle: u32) -> ([f64; 2], [f64; 2], f64) {
-        let Facet { gradient, share, height, .. } = self.facets[triangle as usize];
-        (gradient, gradient.map(|part| share * part), height)
+        let facet = self.facet(triangle);
+        (facet.gradient, facet.contact(), facet.height)
     }
 
     pub fn cutter(&self) -> &'a Cutter {
@@ -246,7 +306,7 @@ impl<'a> Contacts<'a> {
 
     #[inline]
     fn touch_owned(&self, triangle: u32, owned: Owned, [x, y]: [f64; 2], found: &mut Best) {
-        let Facet { gradient: [gx, gy], share, height, .. } = self.facets[triangle as usize];
+        let Facet { gradient: [gx, gy], share, height, .. } = *self.facet(triangle);
         let corners = self.index.triangles().at(triangle);
         let contact = [x + share * gx, y + share * gy];
         let origin = corners[0];
@@ -268,7 +328,7 @@ impl<'a> Contacts<'a> {
     fn is_in_box(&self, [a, b, c]: &[Vector; 3], contact: [f64; 2]) -> bool {
         (0..2).all(|i| {
             let (low, high) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
-            contact[i] >= low - self.overhang && contact[i] <= high + self.overhang
+            contact[i] >= low - self.overhang() && contact[i] <= high + self.overhang()
         })
     }
 
@@ -280,7 +340,7 @@ impl<'a> Contacts<'a> {
             let (p, q) = (corners[i], corners[(i + 1) % 3]);
             let (ex, ey) = (q.x - p.x, q.y - p.y);
             let side = ex * (contact[1] - p.y) - ey * (contact[0] - p.x);
-            Side { area: turn * side, rounding: self.overhang * (ex.abs() + ey.abs()) }
+            Side { area: turn * side, rounding: self.overhang() * (ex.abs() + ey.abs()) }
         })
     }
 
@@ -302,7 +362,7 @@ impl<'a> Contacts<'a> {
     fn touch_corner(&self, corner: Vector, triangle: u32, number: u8, x: f64, y: f64, found: &mut Best) {
         let (dx, dy) = (corner.x - x, corner.y - y);
         let (distance, rim) = ((dx * dx + dy * dy).sqrt(), self.cutter.max_radius());
-        if distance > rim + self.overhang {
+        if distance > rim + self.overhang() {
             return;
         }
         // beside the rim by rounding: the rim may meet the edges there, a rounding beyond their ends
@@ -332,7 +392,7 @@ impl<'a> Contacts<'a> {
     /// The neighbour towards the cutter's contact with a triangle's plane; none where the contact lies inside.
     #[inline]
     pub fn towards(&self, triangle: u32, [x, y]: [f64; 2]) -> Option<u32> {
-        let Facet { gradient: [gx, gy], share, .. } = self.facets[triangle as usize];
+        let Facet { gradient: [gx, gy], share, .. } = *self.facet(triangle);
         let corners = self.index.triangles().at(triangle);
         let sides = self.sides(&corners, [x + share * gx, y + share * gy]);
         let farthest =
@@ -369,7 +429,7 @@ impl<'a> Contacts<'a> {
 
     /// What the tips that a triangle's whole plane asks for do not exceed in a tile; NaN for walls.
     fn greatest_of_plane(&self, triangle: u32, middle: [f64; 2], half: [f64; 2]) -> f64 {
-        let Facet { gradient: [gx, gy], share, height, .. } = self.facets[triangle as usize];
+        let Facet { gradient: [gx, gy], share, height, .. } = *self.facet(triangle);
         let [origin, ..] = self.index.triangles().at(triangle);
         let [dx, dy] = [middle[0] + share * gx - origin.x, middle[1] + share * gy - origin.y];
         origin.z + gx * dx + gy * dy - height + gx.abs() * half[0] + gy.abs() * half[1]
@@ -438,7 +498,7 @@ impl<'a> Contacts<'a> {
         let away = [0, 1].map(|i| best.at[i] - position[i]);
         let distance = libm::hypot(away[0], away[1]);
         let by_table = match best.feature {
-            Feature::Facet => return self.facets[best.triangle as usize].gradient,
+            Feature::Facet => return self.facet(best.triangle).gradient,
             Feature::Edge(i) => self.steepness_on_edge(best.triangle, i, away.map(|a| a / distance)),
             Feature::Corner(_) => self.cutter.height_with_derivatives(distance).map(|height| height.rise),
         };
@@ -461,7 +521,7 @@ impl<'a> Contacts<'a> {
     pub fn height_at(&self, best: &Best) -> f64 {
         let corners = self.index.triangles().at(best.triangle);
         match best.feature {
-            Feature::Facet => best.tip + self.facets[best.triangle as usize].height,
+            Feature::Facet => best.tip + self.facet(best.triangle).height,
             Feature::Edge(i) => {
                 let (a, b) = (corners[usize::from(i)], corners[(usize::from(i) + 1) % 3]);
                 let along = [b.x - a.x, b.y - a.y];

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use styluscam_geometry::{Cutter, Mesh, Sheet, Tool, ToolBody, Vector};
 use styluscam_motion::{Cancelled, Watch};
 
-use super::contact::{self, Best, Chord, Contacts, Facet, Feature};
+use super::contact::{Best, Chord, Contacts, Feature, Prepared};
 use super::features::{Neighbours, NO_NEIGHBOUR};
 use super::index::{Index, Lines, Matched};
 use super::push::{self, Line, Release};
@@ -64,7 +64,7 @@ pub struct Envelope<'a> {
     margin: f64,
     /// The largest coordinate of mesh and cutter.
     reach: f64,
-    facets: Vec<Facet>,
+    prepared: Prepared,
     lines: Lines,
     matched: Vec<Vec<Matched>>,
 }
@@ -85,13 +85,14 @@ impl<'a> Envelope<'a> {
 
     fn of_cutter(mesh: &'a Mesh, index: &'a Index, cutter: Cutter, above: f64, margin: f64) -> Self {
         let (low, high) = index.bounds();
+        let reach = low.amax().max(high.amax()) + cutter.max_radius();
         Self {
             mesh,
             index,
             above,
             margin,
-            reach: low.amax().max(high.amax()) + cutter.max_radius(),
-            facets: contact::prepared(index, &cutter),
+            reach,
+            prepared: Prepared::of(index, &cutter, reach),
             lines: Lines::of(&cutter),
             matched: index
                 .levels()
@@ -407,7 +408,7 @@ impl<'a> Envelope<'a> {
         Ground {
             index: self.index,
             cutter: &self.cutter,
-            contacts: Contacts::new(self.index, &self.cutter, &self.facets, self.reach),
+            contacts: Contacts::new(self.index, &self.cutter, &self.prepared),
             lines: &self.lines,
             matched: &self.matched,
             bottom: self.index.bounds().0.z - self.cutter.max_height() - self.cutter.max_radius(),

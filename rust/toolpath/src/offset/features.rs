@@ -1,9 +1,9 @@
 //! Which edges and corners of a mesh a drop-cutter must try, and whose they are.
 //!
-//! An edge between two facets that meet in a valley or lie in one plane can carry no contact that
-//! a facet does not carry as well, and is left out; so is one below an upright facet, for what stands over it in plan is
-//! higher. Every other edge is tried once, by the
-//! first triangle that has it; every corner likewise.
+//! An edge between two facets that meet in a valley can carry no contact that a facet does not carry as well, and is left
+//! out; so is one below an upright facet, for what stands over it in plan is higher. Every other edge is tried once, by the
+//! first triangle that has it; every corner likewise. Between two facets in one plane it depends on the tool: where it
+//! touches both at the same point, the edge is left out as well.
 
 use rayon::prelude::*;
 use styluscam_geometry::Vector;
@@ -12,11 +12,17 @@ use styluscam_motion::Watch;
 use super::index::{Triangles, BATCH};
 use super::normal;
 
-/// Bit i: the edge from corner i to the next one is this triangle's to try; bit 3 + i: corner i is.
-pub type Owned = u8;
+/// Bit i: the edge from corner i to the next one is this triangle's to try; bit 3 + i: corner i is; bit 6 + i: the edge is,
+/// should the tool touch the facets on its two sides, which lie in one plane but for rounding, at different points.
+pub type Owned = u16;
 
 /// All edges and corners.
 pub const ALL: Owned = 0b11_1111;
+
+/// Of [`Owned`], the bit of an edge in a plane.
+pub const fn in_plane(edge: usize) -> Owned {
+    1 << (6 + edge)
+}
 
 /// The triangle on the other side of each edge, or [`NO_NEIGHBOUR`] at borders and where more than two meet.
 pub type Neighbours = [u32; 3];
@@ -24,8 +30,8 @@ pub type Neighbours = [u32; 3];
 /// No single triangle lies beyond the edge.
 pub const NO_NEIGHBOUR: u32 = u32::MAX;
 
-/// Two facets count as meeting in a valley only beyond this height of one over the other's plane, relative to size.
-const VALLEY: f64 = 1e-12;
+/// Two facets lie in one plane up to this height of one over or under the other's plane, relative to size.
+const ROUNDING: f64 = 1e-12;
 /// A facet stands upright when its normal rises by less: over its height it leans by less than counts as rounding.
 const UPRIGHT: f64 = 1e-13;
 
@@ -35,7 +41,7 @@ pub fn of(triangles: &Triangles, firsts: &[u8], watch: &Watch) -> (Vec<Owned>, V
     let neighbours = neighbours(triangles, watch);
     let mut owned = Vec::with_capacity(firsts.len());
     for batch in watch.batches(firsts.len(), BATCH) {
-        let owned_of = |t| owned_edges(triangles, &neighbours, t) | (firsts[t] << 3);
+        let owned_of = |t| owned_edges(triangles, &neighbours, t) | (Owned::from(firsts[t]) << 3);
         owned.par_extend(batch.into_par_iter().map(owned_of));
     }
     (owned, neighbours)
@@ -100,9 +106,16 @@ fn sides_by_corner(triangles: &Triangles, watch: &Watch) -> (Vec<u32>, Vec<Side>
 fn owned_edges(triangles: &Triangles, neighbours: &[Neighbours], t: usize) -> Owned {
     let mut owned = 0;
     for (i, other) in neighbours[t].into_iter().enumerate() {
-        let mine = other == NO_NEIGHBOUR || ((t as u32) < other && !is_valley(triangles, t, i, other));
+        let is_first = other == NO_NEIGHBOUR || (t as u32) < other;
         let is_under = || [(t as u32), other].into_iter().any(|wall| stands_on(triangles, wall, side(triangles, t, i)));
-        owned |= u8::from(mine && !is_under()) << i;
+        if !is_first || is_under() {
+            continue;
+        }
+        owned |= match meeting(triangles, t, i, other) {
+            Meeting::Ridge => 1 << i,
+            Meeting::Plane => in_plane(i),
+            Meeting::Valley => 0,
+        };
     }
     owned
 }
@@ -130,13 +143,24 @@ fn stands_on(triangles: &Triangles, wall: u32, edge: [u32; 2]) -> bool {
     normal.z.abs() <= UPRIGHT * normal.norm() && along.norm() > 0.0 && c.z > a.z + share * (b.z - a.z)
 }
 
-/// Whether the facets lie on both sides of the edge in plan and neither falls away below the other's plane.
-fn is_valley(triangles: &Triangles, t: usize, i: usize, other: u32) -> bool {
+/// How two facets meet in an edge.
+enum Meeting {
+    /// One falls away below the other's plane, they lie on one side of the edge in plan, or there is one facet alone.
+    Ridge,
+    /// They lie in one plane but for rounding, on both sides of the edge in plan.
+    Plane,
+    /// Each rises over the other's plane, on both sides of the edge in plan.
+    Valley,
+}
+
+fn meeting(triangles: &Triangles, t: usize, i: usize, other: u32) -> Meeting {
     let corners = triangles.at(t as u32);
     let (a, b, c) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
     let edge = side(triangles, t, i);
-    let Some(k) = triangles.corners[other as usize].iter().position(|v| !edge.contains(v)) else {
-        return false;
+    let opposite =
+        triangles.corners.get(other as usize).and_then(|corners| corners.iter().position(|v| !edge.contains(v)));
+    let Some(k) = opposite else {
+        return Meeting::Ridge;
     };
     let d = triangles.at(other)[k];
     let aside = |p: Vector| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
@@ -144,5 +168,12 @@ fn is_valley(triangles: &Triangles, t: usize, i: usize, other: u32) -> bool {
     let size = normal.norm() * (b - a).norm().max((d - a).norm());
     let lies_over = (d - a).dot(&normal) * normal.z.signum();
     let thin = 1e-9 * size;
-    normal.z.abs() > thin && aside(c) * aside(d) < 0.0 && lies_over >= -VALLEY * size
+    let falls_nowhere = normal.z.abs() > thin && aside(c) * aside(d) < 0.0 && lies_over >= -ROUNDING * size;
+    if !falls_nowhere {
+        Meeting::Ridge // of a triangle without area too
+    } else if lies_over <= ROUNDING * size {
+        Meeting::Plane
+    } else {
+        Meeting::Valley
+    }
 }

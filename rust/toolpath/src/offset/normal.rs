@@ -4,6 +4,8 @@ use styluscam_geometry::Vector;
 
 /// Triangles thinner than this share of their length have a normal that plain products would tilt: by rounding / thinness.
 const SLIVER: f64 = 1e-3;
+/// Units in the last place that products of rounded differences are wrong by.
+const UNITS: f64 = 2.0;
 
 /// Normal of a triangle, as long as twice its area; each coordinate is good to a few units in the last place, if the
 /// triangle is a sliver.
@@ -33,6 +35,12 @@ pub fn upward(corners: [Vector; 3]) -> Vector {
     } else {
         normal
     }
+}
+
+/// What rounding of its corners' differences makes of a triangle's unit normal, at most about.
+pub fn rounding([a, b, c]: [Vector; 3]) -> f64 {
+    let (p, q) = (b - a, c - a);
+    UNITS * f64::EPSILON * p.norm() * q.norm() / of([a, b, c]).norm()
 }
 
 /// a b - c d to 1.5 units in the last place (Kahan; Jeannerod, Louvet and Muller 2013).

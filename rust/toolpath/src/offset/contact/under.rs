@@ -124,7 +124,7 @@ impl Contacts<'_> {
         let corners = self.index.triangles().at(triangle);
         let [(a, low), (b, high)] = [from, to].map(|share| chord.at(share));
         let apart = apart_in_plan(&corners, [a, b]);
-        if apart > self.cutter.max_radius() + self.overhang {
+        if apart > self.cutter.max_radius() + self.overhang() {
             return true;
         }
         let top = corners.iter().fold(f64::NEG_INFINITY, |most, p| most.max(p.z));

@@ -155,7 +155,7 @@ impl<'a> Slices<'a> {
             if near.is_empty() {
                 continue;
             }
-            for feature in features(index.owned(triangle)) {
+            for feature in features(self.contacts.owned(triangle)) {
                 let Some(footprint) = footprints.of(triangle, feature) else { continue };
                 let rows = self.crossed(near.clone(), footprint.across);
                 if rows.len() > few {
