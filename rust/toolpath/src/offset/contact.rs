@@ -147,7 +147,7 @@ fn owned_for(index: &Index, cutter: &Cutter, facets: &[Facet], triangle: u32, ov
 
 impl Facet {
     fn of(triangles: &Triangles, triangle: u32, cutter: &Cutter, bending: &Bending) -> Self {
-        let normal = normal::upward(triangles.at(triangle));
+        let normal = normal::upward_or_level(triangles.at(triangle));
         let across = (normal.x * normal.x + normal.y * normal.y).sqrt();
         let (radius, height) = cutter.at_rise(across / normal.z);
         let gradient = [-normal.x / normal.z, -normal.y / normal.z];

@@ -4,6 +4,10 @@ use styluscam_geometry::Vector;
 
 /// Triangles thinner than this share of their length have a normal that plain products would tilt: by rounding / thinness.
 const SLIVER: f64 = 1e-3;
+/// A triangle is level when it rises by no more than this share of its coordinates.
+const LEVEL: f64 = 8.0 * f64::EPSILON;
+/// And when its normal rises by more than this: slivers may stand upright.
+const NOT_UPRIGHT: f64 = 0.5;
 /// Units in the last place that products of rounded differences are wrong by.
 const UNITS: f64 = 2.0;
 
@@ -32,6 +36,19 @@ pub fn upward(corners: [Vector; 3]) -> Vector {
     let normal = normal / normal.norm();
     if normal.z < 0.0 {
         -normal
+    } else {
+        normal
+    }
+}
+
+/// As [`upward`], of a triangle that is level but for rounding of its corners' coordinates: straight up.
+pub fn upward_or_level(corners: [Vector; 3]) -> Vector {
+    let normal = upward(corners);
+    let [a, b, c] = corners.map(|corner| corner.z);
+    let size = corners.iter().fold(0.0_f64, |size, corner| size.max(corner.amax()));
+    let is_level = a.max(b).max(c) - a.min(b).min(c) <= LEVEL * size;
+    if is_level && normal.z > NOT_UPRIGHT {
+        Vector::z()
     } else {
         normal
     }

@@ -169,7 +169,7 @@ fn no_position_falls_between_triangles_of_a_plane() {
                 (ProfileDocument::from(cone), 1.0 / libm::tan(0.5 * angle_deg.to_radians()))
             }
         };
-        let tilt = [0.0, 1e-15, 1e-12, 1e-9, 1e-6][dice.below(5) as usize];
+        let tilt = [0.0, 1e-15, 1e-12, 1e-9, 1e-6][dice.below(5)];
         let (sin, cos) = libm::sincos(dice.within(0.0, 6.3));
         let columns = 8;
         let vertices = (0..columns * columns).map(|i| {
