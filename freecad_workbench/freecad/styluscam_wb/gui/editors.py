@@ -23,6 +23,9 @@ DIGITS = 6
 HUGE = 2**31 - 1
 """Beyond any range of the engine's: a value out of range is stated, not changed."""
 
+ATTEMPTS = 8
+"""Spin boxes that are made for one that Python can use."""
+
 NARROWEST = 90
 """Width (pixels) below which no editor is squeezed."""
 
@@ -34,6 +37,29 @@ def connected(widget: Any, signal: str, called: Any) -> None:
     left of it is then taken for the next widget at the same address: using that one raises "already deleted".
     """
     QtCore.QObject.connect(widget, QtCore.SIGNAL(signal), called)
+
+
+def quantity_box() -> Any:
+    """A spin box of FreeCAD's for numbers with units, without a parent.
+
+    What is left in Python of a widget that is gone is taken for the new one if that has the same address (see `connected`).
+    Then another one is made: the first keeps the address, and is never seen.
+    """
+    loader = FreeCADGui.UiLoader()
+    boxes = (loader.createWidget("Gui::QuantitySpinBox") for _ in range(ATTEMPTS))
+    box = next(filter(is_there, boxes), None)
+    if box is None:
+        raise RuntimeError("FreeCAD makes no spin box that Python can use; close the panel and open it again")
+    return box
+
+
+def is_there(widget: Any) -> bool:
+    """Whether a widget of Qt's stands behind Python's."""
+    try:
+        widget.objectName()
+    except RuntimeError:  # "Internal C++ object already deleted"
+        return False
+    return True
 
 
 class Editor(QtCore.QObject):
@@ -90,7 +116,8 @@ class Quantity(Editor):
     """
 
     def __init__(self, field: Field, obj: Any, parent: Any) -> None:
-        widget = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox", parent)
+        widget = quantity_box()
+        widget.setParent(parent)
         super().__init__(field, obj, widget)
         widget.setProperty("unit", getattr(obj, field.name).getUserPreferred()[2])
         widget.setProperty("binding", f"{obj.Name}.{field.name}")

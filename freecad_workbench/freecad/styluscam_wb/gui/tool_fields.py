@@ -6,11 +6,10 @@ from __future__ import annotations
 from typing import Any
 
 import FreeCAD
-import FreeCADGui
 from PySide import QtCore, QtWidgets
 
 from ..tool_keys import NUMBER, POINTS, ToolKey, text_of, value_of
-from .editors import connected
+from .editors import connected, quantity_box
 from .messages import ERROR, translated
 
 DIGITS = 9
@@ -108,7 +107,7 @@ class _Number(QtCore.QObject):
         self._unit = key.unit if key.unit in KNOWN_UNITS else ""
         self._apart = "" if self._unit or key.unit in ("", "1") else key.unit
         self._exact = self._shown = 0.0
-        self.widget = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
+        self.widget = quantity_box()
         self.widget.setProperty("unit", self._unit)
         self.widget.setProperty("singleStep", 0.1)
         self.widget.setMinimumWidth(NARROWEST)
