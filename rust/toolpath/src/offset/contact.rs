@@ -9,7 +9,7 @@ use styluscam_geometry::{Cutter, Vector};
 
 use super::bending::Bending;
 use super::edge;
-use super::features::{in_plane, Owned, ALL, NO_NEIGHBOUR};
+use super::features::{in_plane, Owned, ALL};
 use super::index::{Index, Triangles};
 use super::normal;
 
@@ -138,10 +138,9 @@ fn owned_for(index: &Index, cutter: &Cutter, facets: &[Facet], triangle: u32, ov
         return ALL;
     }
     let neighbours = index.neighbours(triangle);
-    let is_to_try = |edge: usize| {
-        let other = neighbours[edge];
-        owned & in_plane(edge) != 0 && other != NO_NEIGHBOUR && !facet.touches_as(&facets[other as usize], overhang)
-    };
+    let touches_apart = |other: &Facet| !facet.touches_as(other, overhang);
+    let is_to_try =
+        |edge: usize| owned & in_plane(edge) != 0 && facets.get(neighbours[edge] as usize).is_some_and(touches_apart);
     (0..3).filter(|edge| is_to_try(*edge)).fold(owned & ALL, |owned, edge| owned | 1 << edge)
 }
 
@@ -258,9 +257,10 @@ impl<'a> Contacts<'a> {
     /// A triangle seen from a position and a height.
     #[inline]
     pub fn seen(&self, triangle: u32, [x, y]: [f64; 2], zero: f64) -> Seen {
-        let Facet { gradient: [gx, gy], share, height, bend } = *self.facet(triangle);
+        let facet = self.facet(triangle);
+        let Facet { gradient: [gx, gy], height, bend, .. } = *facet;
         let corners = self.index.triangles().at(triangle).map(|corner| [corner.x - x, corner.y - y, corner.z - zero]);
-        let contact = [share * gx, share * gy];
+        let contact = facet.contact();
         let [first, ..] = corners;
         let plane = first[2] + gx * (contact[0] - first[0]) + gy * (contact[1] - first[1]) - height;
         Seen { corners, contact, plane: if plane.is_nan() { f64::INFINITY } else { plane }, gradient: [gx, gy], bend }

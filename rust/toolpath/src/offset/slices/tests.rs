@@ -1,11 +1,11 @@
 //! Rows against all triangles, one by one.
 
-use styluscam_geometry::Vector;
+use styluscam_geometry::{Mesh, Tool, Vector};
 use styluscam_motion::Watch;
 
 use super::super::envelope::tests::common::dice::Dice;
 use super::super::envelope::tests::common::tools::{Kind, KINDS};
-use super::super::envelope::tests::surfaces::{Surface, MIDDLE, SURFACES};
+use super::super::envelope::tests::surfaces::{plane_and_tool, Surface, MIDDLE, SURFACES};
 use super::super::search::Keeping;
 use super::super::{Envelope, Index};
 use super::Slice;
@@ -15,12 +15,22 @@ fn on_rows(
     surface: Surface,
     kind: &Kind,
     seed: u64,
-    mut ask: impl FnMut(&Envelope<'_>, &Slice<'_>, [[f64; 2]; 2], f64),
+    ask: impl FnMut(&Envelope<'_>, &Slice<'_>, [[f64; 2]; 2], f64),
 ) -> [usize; 2] {
     let mut dice = Dice::new(seed);
     let (mesh, tool) = (surface.mesh(&mut dice), kind.tool(&mut dice));
-    let index = Index::new(&mesh);
-    let envelope = Envelope::new(&mesh, &index, &tool, None, 0.0);
+    on_rows_of(&mesh, &tool, &mut dice, ask)
+}
+
+/// The same of a mesh and a tool.
+fn on_rows_of(
+    mesh: &Mesh,
+    tool: &Tool,
+    dice: &mut Dice,
+    mut ask: impl FnMut(&Envelope<'_>, &Slice<'_>, [[f64; 2]; 2], f64),
+) -> [usize; 2] {
+    let index = Index::new(mesh);
+    let envelope = Envelope::new(mesh, &index, tool, None, 0.0);
     let (sin, cos) = if dice.chance(0.4) { (0.0, 1.0) } else { libm::sincos(dice.within(0.0, 6.3)) };
     let directions = [[cos, sin], [-sin, cos]];
     let middle = MIDDLE * (cos - sin);
@@ -90,6 +100,27 @@ fn rows_find_what_all_triangles_say() {
 #[ignore = "takes minutes: make test-long"]
 fn rows_find_what_all_triangles_say_of_every_surface_and_kind() {
     compare(1000..1000 + 5 * SURFACES.len() * KINDS.len(), 12);
+}
+
+/// Planes that are level for a flat end, or as steep as a cone, but for rounding.
+#[test]
+fn rows_lose_nothing_between_triangles_of_a_plane() {
+    let mut asked = [0; 2];
+    for seed in 0..120 {
+        let mut dice = Dice::new(seed);
+        let (mesh, tool) = plane_and_tool(&mut dice);
+        let mut places = Dice::new(seed + 1000);
+        let rows = on_rows_of(&mesh, &tool, &mut dice, |envelope, slice, directions, row| {
+            for _ in 0..20 {
+                let position = position(&mut places, directions, row);
+                let (found, truth) = (slice.found(position).0, highest_alone(envelope, position));
+                let is_same = if truth.is_finite() { (found.tip - truth).abs() < 1e-11 } else { !found.is_something() };
+                assert!(is_same, "{:?} seed {seed} at {position:?}: {} {truth}", tool.document().profile, found.tip);
+            }
+        });
+        asked = [0, 1].map(|i| asked[i] + rows[i]);
+    }
+    assert!(2 * asked[1] > asked[0], "{asked:?}");
 }
 
 #[test]

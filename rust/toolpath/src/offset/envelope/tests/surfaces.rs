@@ -1,6 +1,6 @@
 //! Random surfaces about 12 mm wide: bumps, ridges, steps with upright walls, needles, bowls, rubble.
 
-use styluscam_geometry::{Mesh, Vector};
+use styluscam_geometry::{kinds, Mesh, ProfileDocument, Tool, ToolDocument, Vector};
 
 use super::common::dice::Dice;
 
@@ -8,6 +8,9 @@ use super::common::dice::Dice;
 const CELLS: usize = 24;
 /// Side of a cell, mm.
 const PITCH: f64 = 0.5;
+
+/// Cells on a side of a plane, of 1 mm.
+const PLANE: usize = 7;
 
 /// A kind of surfaces.
 #[derive(Clone, Copy, Debug)]
@@ -44,17 +47,9 @@ impl Surface {
         if matches!(self, Self::Plates) {
             return plates(dice);
         }
-        let side = CELLS + 1;
         let (phase, long) = (dice.within(0.0, 6.0), dice.within(0.7, 1.4));
-        let corner = |i: usize| self.corner((i % side) as f64, (i / side) as f64, phase, long, dice);
-        let mut vertices: Vec<Vector> = (0..side * side).map(corner).collect();
-        let mut triangles = Vec::new();
-        for row in 0..CELLS {
-            for column in 0..CELLS {
-                let (i, n) = ((row * side + column) as i64, side as i64);
-                triangles.extend([[i, i + 1, i + n + 1], [i, i + n + 1, i + n]]);
-            }
-        }
+        let mut vertices = grid(CELLS, |column, row| self.corner(column, row, phase, long, dice));
+        let mut triangles = cells(CELLS);
         if matches!(self, Self::Bowl) {
             fan(&mut vertices, &mut triangles);
         }
@@ -79,6 +74,19 @@ impl Surface {
         }
         Vector::new(x, y, z)
     }
+}
+
+/// Corners of a square of cells, row by row, by their column and row.
+fn grid(cells: usize, mut corner: impl FnMut(f64, f64) -> Vector) -> Vec<Vector> {
+    let side = cells + 1;
+    (0..side * side).map(|i| corner((i % side) as f64, (i / side) as f64)).collect()
+}
+
+/// Two triangles for each cell of a [`grid`].
+fn cells(cells: usize) -> Vec<[i64; 3]> {
+    let (cells, n) = (cells as i64, cells as i64 + 1);
+    let corners = (0..cells).flat_map(|row| (0..cells).map(move |column| row * n + column));
+    corners.flat_map(|i| [[i, i + 1, i + n + 1], [i, i + n + 1, i + n]]).collect()
 }
 
 fn fan(vertices: &mut Vec<Vector>, triangles: &mut Vec<[i64; 3]>) {
@@ -106,4 +114,27 @@ fn plates(dice: &mut Dice) -> Mesh {
         }
     }
     Mesh::new(vertices, &triangles, &[]).unwrap()
+}
+
+/// A tool, and a plane of many triangles that is as steep as its straight part: rounding of the corners, or more than that, tilts each
+/// triangle its own way, and the tool touches each somewhere else.
+pub fn plane_and_tool(dice: &mut Dice) -> (Mesh, Tool) {
+    let angle_deg = dice.within(30.0, 150.0);
+    let (diameter, tip_flat) = (1.5, 0.0);
+    let (profile, steep) = match dice.below(5) {
+        0 => (ProfileDocument::from(kinds::Flat { diameter, tip_flat }), 0.0),
+        1 => (ProfileDocument::from(kinds::Ball { diameter, radius: None, tip_flat: 0.4 }), 0.0),
+        2 => (ProfileDocument::from(kinds::Power { diameter, coefficient: 2.0, exponent: 6.0, tip_flat }), 0.0),
+        _ => {
+            let cone = kinds::V { tip_diameter: 0.2, angle_deg, diameter, tip_flat };
+            (ProfileDocument::from(cone), 1.0 / libm::tan(0.5 * angle_deg.to_radians()))
+        }
+    };
+    let tilt = [0.0, 1e-15, 1e-12, 1e-9, 1e-6][dice.below(5)];
+    let (sin, cos) = libm::sincos(dice.within(0.0, 6.3));
+    let vertices = grid(PLANE, |column, row| {
+        let [x, y] = [column, row].map(|at| MIDDLE - 0.5 * PLANE as f64 + at + dice.within(-0.3, 0.3));
+        Vector::new(x, y, 3.524_880_774_456_98 + steep * (cos * x + sin * y) + tilt * dice.within(-1.0, 1.0))
+    });
+    (Mesh::new(vertices, &cells(PLANE), &[]).unwrap(), Tool::new(ToolDocument::of(profile)).unwrap())
 }
