@@ -96,6 +96,12 @@ def test_an_edit_is_one_step_to_undo_and_is_saved(session: Any) -> None:
     assert seen["same"]
 
 
+def test_a_spin_box_is_never_one_that_is_gone(session: Any) -> None:
+    seen = session["boxes at old addresses"]
+    assert seen["FreeCAD's"] > 0
+    assert seen["ours"] == 0
+
+
 def test_nothing_is_thrown_at_freecad(session: Any) -> None:
     assert session["edited by double click"]
     assert "Traceback" not in session.errors

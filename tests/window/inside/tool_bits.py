@@ -15,6 +15,9 @@ from driver import QtCore, QtWidgets, until
 ODD = 7.12345678912
 """A diameter with more digits than any box shows."""
 
+BOXES = 200
+"""Spin boxes made at a time: some of them come to addresses of others that are gone."""
+
 
 def bench(name: str = "Tools", *, with_job: bool = True) -> Any:
     """A document with a box in a CAM job, StylusCAM's workbench in front; the job, or the document without one."""
@@ -296,8 +299,28 @@ def _double_clicked(bit: Any) -> Any:
     yield driver.settled()
 
 
+def boxes_at_old_addresses() -> Any:
+    """Spin boxes made after others are gone that Python still knows: how many of FreeCAD's and of ours cannot be used."""
+    import FreeCADGui
+
+    from freecad.styluscam_wb.gui import editors
+
+    loader = FreeCADGui.UiLoader()
+    makers = {"FreeCAD's": lambda: loader.createWidget("Gui::QuantitySpinBox"), "ours": editors.quantity_box}
+    unusable, kept = {}, []
+    for name, make in makers.items():
+        old = [editors.quantity_box() for _ in range(BOXES)]
+        kept += [box.valueChanged for box in old]  # as a signal, which keeps what is left of a box for ever
+        for box in old:
+            box.deleteLater()
+        yield driver.settled()
+        unusable[name] = sum(not editors.is_there(make()) for _ in range(BOXES))
+    return unusable
+
+
 driver.run(
     {
+        "boxes at old addresses": boxes_at_old_addresses,
         "made with the button": made_with_the_button,
         "every kind": every_kind,
         "errors in place": errors_in_place,

@@ -23,8 +23,8 @@ DIGITS = 6
 HUGE = 2**31 - 1
 """Beyond any range of the engine's: a value out of range is stated, not changed."""
 
-ATTEMPTS = 8
-"""Spin boxes that are made for one that Python can use."""
+ATTEMPTS = 1000
+"""Spin boxes that are made for one that Python can use: new ones come to the addresses of those that are gone first."""
 
 NARROWEST = 90
 """Width (pixels) below which no editor is squeezed."""
